@@ -123,8 +123,8 @@ Status View(const ViewRequest& a, const CommandContext& context) {
     options.window = context.window;
     options.title = a.path;
     options.measurements = MeasurementsFile(a.path);
-    options.width = a.width;
-    options.height = a.height;
+    options.screen.width = a.width;
+    options.screen.height = a.height;
     Result<std::unique_ptr<Viewer>> viewer = Viewer::OpenModel(std::move(model.value()), options);
     if (!viewer.ok()) return viewer.status();
     if (!a.screenshot.empty()) return WriteColourImage(a.screenshot, viewer.value()->Picture());

@@ -15,8 +15,8 @@ ViewerOptions OptionsFor(const RunRequest& request, const RunConfig& config,
                          const SourceInfo& source) {
     ViewerOptions options;
     options.title = source.name;
-    options.width = config.view.width;
-    options.height = config.view.height;
+    options.screen.width = config.view.width;
+    options.screen.height = config.view.height;
     options.close_at_end = config.view.close_at_end;
     options.output_folder = request.output_folder.empty() ? "." : request.output_folder;
     options.measurements = MeasurementsFile(options.output_folder);

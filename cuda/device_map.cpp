@@ -18,29 +18,29 @@ DeviceMap::DeviceMap(double voxel_size_m, const TruncationBand& band, DeviceMemo
       band_(band),
       memory_(memory),
       stream_(stream),
-      field_(memory),
-      weight_(memory),
-      colour_(memory),
+      layers_(memory),
       neighbours_(memory),
       coords_(memory),
       revision_(memory),
       table_(memory),
       sorter_(memory),
-      wanted_set_(memory),
       wanted_(memory),
-      sorted_(memory),
       count_(memory),
       keep_(memory),
       visible_(memory),
       selected_(memory),
-      part_field_(memory),
-      part_weight_(memory),
-      part_colour_(memory) {}
+      part_(memory) {}
+
+bool DeviceMap::Layers::Reserve(Stream& stream, std::size_t blocks, std::size_t keep) {
+    return field.Reserve(stream, blocks * kBlockVoxels, keep * kBlockVoxels) &&
+           colour.Reserve(stream, blocks * kBlockVoxels, keep * kBlockVoxels) &&
+           weight.Reserve(stream, blocks * kBlockVoxels, keep * kBlockVoxels);
+}
 
 DeviceMapView DeviceMap::view() {
-    return {field_.data(),
-            weight_.data(),
-            colour_.data(),
+    return {layers_.field.data(),
+            layers_.weight.data(),
+            layers_.colour.data(),
             neighbours_.data(),
             coords_.data(),
             revision_.data(),
@@ -54,10 +54,8 @@ bool DeviceMap::Clear() {
     size_ = 0;
     full_ = false;
     table_slots_ = 0;
-    constexpr std::size_t kPart = static_cast<std::size_t>(kBlocksPerPart) * kBlockVoxels;
     if (!Reserve(kFirstBlocks) || !count_.Reserve(stream_, 2, 0) ||
-        !part_field_.Reserve(stream_, kPart, 0) || !part_weight_.Reserve(stream_, kPart, 0) ||
-        !part_colour_.Reserve(stream_, kPart, 0))
+        !part_.Reserve(stream_, kBlocksPerPart, 0))
         return false;
     const std::int32_t unknown[4] = {kBlockLimit, kBlockLimit, kBlockLimit, 0};
     stream_.Upload(coords_.data(), unknown, sizeof unknown);
@@ -73,9 +71,9 @@ bool DeviceMap::Load(std::int32_t size, const std::int32_t* coords, const FieldW
     if (!Clear() || !Reserve(size)) return false;
     const auto blocks = static_cast<std::size_t>(size), voxels = blocks * kBlockVoxels;
     stream_.Upload(coords_.data(), coords, 4 * blocks * sizeof *coords);
-    stream_.Upload(field_.data(), field, voxels * sizeof *field);
-    stream_.Upload(weight_.data(), weight, voxels * sizeof *weight);
-    stream_.Upload(colour_.data(), colour, voxels * sizeof *colour);
+    stream_.Upload(layers_.field.data(), field, voxels * sizeof *field);
+    stream_.Upload(layers_.weight.data(), weight, voxels * sizeof *weight);
+    stream_.Upload(layers_.colour.data(), colour, voxels * sizeof *colour);
     stream_.Fill(revision_.data(), 0, blocks * sizeof(std::uint32_t));
     ForEach(stream_, size - 1, InsertIntoTable{view(), 1});
     ForEach(stream_, 8 * (size - 1), LinkNeighbours{view(), 1});
@@ -108,9 +106,7 @@ bool DeviceMap::GrowTo(std::int32_t blocks) {
     const std::size_t before = revision_.capacity(),
                       twice = before * kBlockVoxels * sizeof(FieldWord);
     if (!memory_.HasRoom((count - before) * kBlockBytes + twice)) return false;
-    return field_.Reserve(stream_, count * kBlockVoxels, have * kBlockVoxels) &&
-           colour_.Reserve(stream_, count * kBlockVoxels, have * kBlockVoxels) &&
-           weight_.Reserve(stream_, count * kBlockVoxels, have * kBlockVoxels) &&
+    return layers_.Reserve(stream_, count, have) &&
            neighbours_.Reserve(stream_, count * 8, have * 8) &&
            coords_.Reserve(stream_, count * 4, have * 4) && keep_.Reserve(stream_, count, 0) &&
            visible_.Reserve(stream_, count, 0) && selected_.Reserve(stream_, count, 0) &&
@@ -129,20 +125,21 @@ bool DeviceMap::GrowTable(std::int32_t blocks) {
     return true;
 }
 
-// Fills wanted_ with every wanted block once, in any order.
+// Fills wanted_.keys with every wanted block once, in any order.
 bool DeviceMap::MarkWanted(const BandWalk& walk, const WorldBox& box, int& wanted) {
-    std::size_t capacity = std::max<std::size_t>(kFirstWanted, wanted_.capacity());
+    std::size_t capacity = std::max<std::size_t>(kFirstWanted, wanted_.keys.capacity());
     while (true) {
         std::size_t slots = 1;
         while (slots < 2 * capacity) slots *= 2;
-        if (!wanted_.Reserve(stream_, capacity, 0) || !sorted_.Reserve(stream_, capacity, 0) ||
-            !wanted_set_.Reserve(stream_, slots, 0))
+        if (!wanted_.keys.Reserve(stream_, capacity, 0) ||
+            !wanted_.sorted.Reserve(stream_, capacity, 0) ||
+            !wanted_.set.Reserve(stream_, slots, 0))
             return false;
-        stream_.Fill(wanted_set_.data(), 0, slots * sizeof(std::uint64_t));
+        stream_.Fill(wanted_.set.data(), 0, slots * sizeof(std::uint64_t));
         stream_.Fill(count_.data(), 0, 2 * sizeof(std::int32_t));
-        const KeySet set{wanted_set_.data(), static_cast<std::uint32_t>(slots - 1),
-                         wanted_.data(),     count_.data(),
-                         count_.data() + 1,  static_cast<std::int32_t>(capacity)};
+        const KeySet set{wanted_.set.data(),  static_cast<std::uint32_t>(slots - 1),
+                         wanted_.keys.data(), count_.data(),
+                         count_.data() + 1,   static_cast<std::int32_t>(capacity)};
         ForEach(stream_, walk.columns() * walk.rows(),
                 MarkWantedBlocks{walk, box, voxel_size_m_ * kBlockSide, view(), set});
         std::int32_t counted[2];
@@ -165,14 +162,14 @@ DeviceMap::Growth DeviceMap::Allocate(const BandWalk& walk, const WorldBox& box,
     growth.wanted = wanted;
     int count = std::min(wanted, max_new_blocks);
     if (count == 0) return growth;
-    if (!sorter_.SortKeys(stream_, wanted_.data(), sorted_.data(), wanted)) count = 0;
+    if (!sorter_.SortKeys(stream_, wanted_.keys.data(), wanted_.sorted.data(), wanted)) count = 0;
     if (count > 0 && !Reserve(size_ + count)) {
         count = std::min(count, static_cast<std::int32_t>(revision_.capacity()) - size_);
         if (!GrowTable(size_ + count)) count = 0;
     }
     growth.full = count < std::min(wanted, max_new_blocks);
     std::vector<std::uint64_t> keys(static_cast<std::size_t>(count));
-    stream_.Download(keys.data(), sorted_.data(), keys.size() * sizeof(std::uint64_t));
+    stream_.Download(keys.data(), wanted_.sorted.data(), keys.size() * sizeof(std::uint64_t));
     AddBlocks(count);
     stream_.Wait();
     for (const std::uint64_t key : keys) growth.added.push_back(CoordOf(key));
@@ -181,7 +178,7 @@ DeviceMap::Growth DeviceMap::Allocate(const BandWalk& walk, const WorldBox& box,
 
 void DeviceMap::AddBlocks(int count) {
     ForEach(stream_, count * kBlockVoxels, ClearVoxels{view(), size_});
-    ForEach(stream_, count, PlaceBlocks{view(), size_, sorted_.data()});
+    ForEach(stream_, count, PlaceBlocks{view(), size_, wanted_.sorted.data()});
     ForEach(stream_, count, InsertIntoTable{view(), size_});
     ForEach(stream_, 8 * count, LinkNeighbours{view(), size_});
     size_ += count;
@@ -209,16 +206,16 @@ int DeviceMap::Select(DeviceBuffer<std::int32_t>& ids) {
 void DeviceMap::DownloadPart(int begin, int count, BlockVoxels& out) {
     const auto blocks = static_cast<std::size_t>(count), voxels = blocks * kBlockVoxels;
     ForEach(stream_, static_cast<int>(voxels),
-            GatherVoxels{view(), selected_.data() + begin, part_field_.data(), part_weight_.data(),
-                         part_colour_.data()});
+            GatherVoxels{view(), selected_.data() + begin, part_.field.data(), part_.weight.data(),
+                         part_.colour.data()});
     out.ids.resize(blocks);
     out.field.resize(voxels);
     out.weight.resize(voxels);
     out.colour.resize(voxels);
     stream_.Download(out.ids.data(), selected_.data() + begin, blocks * sizeof(std::int32_t));
-    stream_.Download(out.field.data(), part_field_.data(), voxels * sizeof(FieldWord));
-    stream_.Download(out.weight.data(), part_weight_.data(), voxels * sizeof(std::uint16_t));
-    stream_.Download(out.colour.data(), part_colour_.data(), voxels * sizeof(ColourWord));
+    stream_.Download(out.field.data(), part_.field.data(), voxels * sizeof(FieldWord));
+    stream_.Download(out.weight.data(), part_.weight.data(), voxels * sizeof(std::uint16_t));
+    stream_.Download(out.colour.data(), part_.colour.data(), voxels * sizeof(ColourWord));
     stream_.Wait();
 }
 

@@ -83,6 +83,22 @@ class DeviceMap {
     static constexpr int kBlocksPerPart = 1024;
 
   private:
+    struct Layers {
+        explicit Layers(DeviceMemory& memory) : field(memory), weight(memory), colour(memory) {}
+        // As DeviceBuffer::Reserve, in blocks.
+        [[nodiscard]] bool Reserve(Stream& stream, std::size_t blocks, std::size_t keep);
+
+        DeviceBuffer<FieldWord> field;
+        DeviceBuffer<std::uint16_t> weight;
+        DeviceBuffer<ColourWord> colour;
+    };
+    // Keys of the blocks that an image needs and the map lacks.
+    struct WantedBlocks {
+        explicit WantedBlocks(DeviceMemory& memory) : set(memory), keys(memory), sorted(memory) {}
+
+        DeviceBuffer<std::uint64_t> set, keys, sorted;  // `set`: a hash table
+    };
+
     [[nodiscard]] bool Reserve(std::int32_t blocks);
     [[nodiscard]] bool GrowTo(std::int32_t blocks);
     [[nodiscard]] bool GrowTable(std::int32_t blocks);
@@ -98,22 +114,18 @@ class DeviceMap {
     Stream& stream_;
     std::int32_t size_ = 0;
     bool full_ = false;  // growth failed; not tried again before Clear
-    DeviceBuffer<FieldWord> field_;
-    DeviceBuffer<std::uint16_t> weight_;
-    DeviceBuffer<ColourWord> colour_;
+    Layers layers_;
     DeviceBuffer<std::int32_t> neighbours_, coords_;
     DeviceBuffer<std::uint32_t> revision_;
     DeviceBuffer<std::int32_t> table_;
     std::size_t table_slots_ = 0;
     // Temporary buffers.
     DeviceSorter sorter_;
-    DeviceBuffer<std::uint64_t> wanted_set_, wanted_, sorted_;
+    WantedBlocks wanted_;
     DeviceBuffer<std::int32_t> count_;
     DeviceBuffer<std::uint8_t> keep_;
     DeviceBuffer<std::int32_t> visible_, selected_;
-    DeviceBuffer<FieldWord> part_field_;
-    DeviceBuffer<std::uint16_t> part_weight_;
-    DeviceBuffer<ColourWord> part_colour_;
+    Layers part_;  // of the blocks that are downloaded at once
 };
 
 }  // namespace tessera::TESSERA_DEVICE

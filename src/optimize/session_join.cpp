@@ -49,30 +49,30 @@ std::vector<CommonPlace> FindCommonPlaces(LoopCloser& a, std::span<const StoredF
 }
 
 void AppendSession(LoopCloser::Memory b, const JointPose& pose, LoopCloser::Memory& a) {
-    const int first = static_cast<int>(a.keyframes.size());
-    const double way_m = a.keyframes.empty() ? 0 : a.keyframes.back().path_length_m,
-                 turned_rad = a.keyframes.empty() ? 0 : a.keyframes.back().turned_rad;
-    for (Keyframe& keyframe : b.keyframes) {
+    const int first = static_cast<int>(a.graph.keyframes.size());
+    const double way_m = a.graph.keyframes.empty() ? 0 : a.graph.keyframes.back().path_length_m,
+                 turned_rad = a.graph.keyframes.empty() ? 0 : a.graph.keyframes.back().turned_rad;
+    for (Keyframe& keyframe : b.graph.keyframes) {
         keyframe.id += first;
         keyframe.T_map_camera = Normalised(pose.T_a_b * keyframe.T_map_camera);
         keyframe.T_world_camera = Normalised(pose.T_a_b * keyframe.T_world_camera);
         keyframe.path_length_m += way_m;
         keyframe.turned_rad += turned_rad;
         for (Overlap& overlap : keyframe.overlaps) overlap.with += first;
-        a.keyframes.push_back(std::move(keyframe));
+        a.graph.keyframes.push_back(std::move(keyframe));
     }
-    for (PoseEdge& edge : b.edges) {
+    for (PoseEdge& edge : b.graph.edges) {
         edge.from += first;
         edge.to += first;
-        a.edges.push_back(std::move(edge));
+        a.graph.edges.push_back(std::move(edge));
     }
     for (const CommonPlace& place : pose.places) {
-        a.edges.push_back(EdgeAt(place));
-        a.edges.back().to += first;
+        a.graph.edges.push_back(EdgeAt(place));
+        a.graph.edges.back().to += first;
     }
-    for (LoopCloser::PathPose& passage : b.passages) {
+    for (PathPose& passage : b.graph.passages) {
         passage.keyframe += first;
-        a.passages.push_back(passage);
+        a.graph.passages.push_back(passage);
     }
     for (StoredFrame& frame : b.frames) {
         frame.keyframe += first;
@@ -80,8 +80,8 @@ void AppendSession(LoopCloser::Memory b, const JointPose& pose, LoopCloser::Memo
         a.frames.push_back(std::move(frame));
     }
     a.next_ordinal += b.next_ordinal;
-    a.loops += b.loops + 1;
-    a.corrected = true;
+    a.graph.loops += b.graph.loops + 1;
+    a.graph.corrected = true;
 }
 
 }  // namespace tessera

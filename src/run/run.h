@@ -54,6 +54,15 @@ struct LabelSummary {
     std::vector<MapObject> objects;
 };
 
+// What a recording shows of its camera, with calibration.check; each only if it could be estimated.
+struct CameraFindings {
+    std::optional<CameraReport> camera;
+    std::optional<VignettingReport> vignetting;
+    std::optional<ColourShift> colour_shift;  // of colour against depth
+    std::optional<ColourDelay> colour_delay;  // of its time stamps
+    std::optional<DepthDistortionEstimate> depth_distortion;
+};
+
 struct RunSummary {
     SourceInfo source;
     RunCounts counts;
@@ -66,12 +75,7 @@ struct RunSummary {
     std::optional<LabelSummary> labels;  // with labels only
     // With calibration.refine, if there was enough data for an estimate.
     std::optional<CalibrationReport> calibration;
-    // With calibration.check, if the recording reveals its camera.
-    std::optional<CameraReport> camera;
-    std::optional<VignettingReport> vignetting;
-    std::optional<ColourShift> colour_shift;  // the same for the registration of colour
-    std::optional<ColourDelay> colour_delay;  // and for its time stamps
-    std::optional<DepthDistortionEstimate> depth_distortion;
+    CameraFindings found;
     // Read-out times of the images with which tracking began.
     double depth_readout_s = 0, colour_readout_s = 0;
     std::optional<AteResult> ate;  // against the source's ground truth; none with given poses

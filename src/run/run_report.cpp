@@ -164,13 +164,14 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
         json["calibration"] =
             CalibrationJson(summary.source.camera, config.pipeline.frame.disparity_offset_per_m,
                             *summary.calibration);
-    if (summary.camera) json["camera_estimate"] = CameraJson(*summary.camera);
-    if (const auto& v = summary.vignetting)
+    const CameraFindings& found = summary.found;
+    if (found.camera) json["camera_estimate"] = CameraJson(*found.camera);
+    if (const auto& v = found.vignetting)
         json["vignetting"] = {{"used", v->used}, {"share", v->share}, {"sigma", v->sigma}};
-    if (summary.colour_shift) json["colour_shift"] = ColourShiftJson(*summary.colour_shift);
-    if (summary.colour_delay) json["colour_delay"] = ColourDelayJson(*summary.colour_delay);
-    if (summary.depth_distortion)
-        json["depth_distortion"] = DepthDistortionJson(*summary.depth_distortion);
+    if (found.colour_shift) json["colour_shift"] = ColourShiftJson(*found.colour_shift);
+    if (found.colour_delay) json["colour_delay"] = ColourDelayJson(*found.colour_delay);
+    if (found.depth_distortion)
+        json["depth_distortion"] = DepthDistortionJson(*found.depth_distortion);
     json["shutter"] = {{"depth_readout_ms", 1000 * summary.depth_readout_s},
                        {"colour_readout_ms", 1000 * summary.colour_readout_s}};
     if (summary.ate) json["ate"] = Json::parse(AteJson(*summary.ate), nullptr, false);

@@ -114,17 +114,14 @@ Status Runner::Open(const std::atomic<bool>& stop) {
 
 void Runner::TakeCamera(const CheckedSource& checked) {
     summary_.source = checked.source->info();
-    summary_.camera = checked.camera;
-    summary_.colour_shift = checked.colour;
-    summary_.colour_delay = checked.delay;
-    summary_.vignetting = checked.vignetting;
-    summary_.depth_distortion = checked.depth;
+    summary_.found = checked.found;
     notes_.insert(notes_.end(), checked.messages.begin(), checked.messages.end());
 }
 
 void Runner::BeginShutters(PipelineConfig& config) {
-    if (summary_.camera) BeginShutter(*summary_.camera, config, summary_.source);
-    if (summary_.colour_delay) BeginDepthShutter(*summary_.colour_delay, config, summary_.source);
+    const CameraFindings& found = summary_.found;
+    if (found.camera) BeginShutter(*found.camera, config, summary_.source);
+    if (found.colour_delay) BeginDepthShutter(*found.colour_delay, config, summary_.source);
     summary_.depth_readout_s = config.shutter.depth_readout_s;
     summary_.colour_readout_s =
         config.shutter.colour_readout_s + config.trackers.photometric.shutter.readout_s;

@@ -96,8 +96,8 @@ void AddClosure(const LoopCloser& closer, ScanCheckpoint& checkpoint) {
         checkpoint.poses.emplace_back(
             id, KeyframePoses{keyframes[id].T_map_camera, keyframes[id].T_world_camera});
     }
-    checkpoint.loops = LoopProgress{closer.edges(), closer.store().next_ordinal(), closer.loops(),
-                                    closer.corrected()};
+    checkpoint.loops = LoopProgress{closer.graph().edges(), closer.store().next_ordinal(),
+                                    closer.graph().loops(), closer.graph().corrected()};
 }
 
 int OverlapsAcross(const Keyframes& keyframes, int first_of_b) {
@@ -206,14 +206,14 @@ Result<MergeReport> MergeScans(const std::string& first, const std::string& seco
     LoopCloser::Memory joint = TakeLoopMemory(a.content), added = TakeLoopMemory(b.content);
     const std::vector<CommonPlace> places =
         FindCommonPlaces(*closer_of(joint), added.frames, settings, meta.depth_units_per_m);
-    const std::optional<JointPose> pose = AgreeOnPose(places, added.keyframes);
+    const std::optional<JointPose> pose = AgreeOnPose(places, added.graph.keyframes);
     if (!pose)
         return Status::Error(fmt::format(
             "{} and {}: no common place was found ({} of {} keyframes of the second were seen in "
             "the first, and no two different ones agree); scan from where the first has been",
-            first, second, places.size(), added.keyframes.size()));
+            first, second, places.size(), added.graph.keyframes.size()));
     const Offsets offsets{static_cast<std::int64_t>(a.content.path.size()), joint.next_ordinal,
-                          static_cast<int>(joint.keyframes.size())};
+                          static_cast<int>(joint.graph.keyframes.size())};
 
     // 2. One pose graph, and one map from the frames of both.
     AppendSession(std::move(added), *pose, joint);

@@ -83,11 +83,12 @@ Status OpenCorrected(const RunRequest& request, RunConfig& config,
                      const std::optional<PinholeCamera>& camera, CheckedSource& checked) {
     Result<std::unique_ptr<FrameSource>> opened = OpenWith(request.source, config, camera);
     if (!opened.ok()) return opened.status();
-    checked.depth = LookAtDepth(std::move(opened.value()), request.selection);
-    if (checked.depth && checked.depth->shown()) {
-        checked.depth->used = true;
-        config.source.depth_distortion = checked.depth->found;
-        checked.messages.push_back(DepthDistortionText(*checked.depth) + ": corrected");
+    checked.found.depth_distortion = LookAtDepth(std::move(opened.value()), request.selection);
+    if (checked.found.depth_distortion && checked.found.depth_distortion->shown()) {
+        checked.found.depth_distortion->used = true;
+        config.source.depth_distortion = checked.found.depth_distortion->found;
+        checked.messages.push_back(DepthDistortionText(*checked.found.depth_distortion) +
+                                   ": corrected");
     }
     opened = OpenWith(request.source, config, camera);
     if (!opened.ok()) return opened.status();
@@ -122,46 +123,47 @@ Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const
 
 // Corrects the time stamps of colour in `config` if the images show an error.
 void CorrectDelay(const FirstSeconds& seen, RunConfig& config, CheckedSource& checked) {
-    checked.delay = seen.delay;
-    if (!checked.delay || !checked.delay->shown()) return;
-    checked.delay->used = true;
-    config.source.colour_delay_s += checked.delay->certain_s();
-    checked.messages.push_back(fmt::format("{}: corrected by {:.1f} ms",
-                                           ColourDelayText(*checked.delay),
-                                           1000 * std::abs(checked.delay->certain_s())));
+    checked.found.colour_delay = seen.delay;
+    if (!checked.found.colour_delay || !checked.found.colour_delay->shown()) return;
+    checked.found.colour_delay->used = true;
+    config.source.colour_delay_s += checked.found.colour_delay->certain_s();
+    checked.messages.push_back(
+        fmt::format("{}: corrected by {:.1f} ms", ColourDelayText(*checked.found.colour_delay),
+                    1000 * std::abs(checked.found.colour_delay->certain_s())));
 }
 
 // Corrects the registration and the brightness of colour in `config` if the images show errors, and
 // looks again if they are large.
 Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConfig& config,
                      FirstSeconds& seen, CheckedSource& checked) {
-    checked.colour = seen.colour;
+    checked.found.colour_shift = seen.colour;
     if (seen.camera)
-        checked.vignetting =
+        checked.found.vignetting =
             VignettingReport{seen.camera->vignetting, seen.camera->vignetting_sigma};
     if (IsOni(request.source)) return Status::Ok();
-    if (checked.colour && checked.colour->shown()) {
-        checked.colour->used = true;
-        config.source.colour_shift_px = {checked.colour->x_px, checked.colour->y_px};
-        checked.messages.push_back(ColourShiftText(*checked.colour) + ": corrected");
+    if (checked.found.colour_shift && checked.found.colour_shift->shown()) {
+        checked.found.colour_shift->used = true;
+        config.source.colour_shift_px = {checked.found.colour_shift->x_px,
+                                         checked.found.colour_shift->y_px};
+        checked.messages.push_back(ColourShiftText(*checked.found.colour_shift) + ": corrected");
     }
     const bool believed = seen.camera && (seen.camera->plausible() || !given.camera_known);
     if (believed && seen.camera->vignetting_shown()) {
-        VignettingReport& v = *checked.vignetting;
+        VignettingReport& v = *checked.found.vignetting;
         v.used = true;
         config.source.vignetting = v.share;
         checked.messages.push_back(fmt::format(
             "the image's corners are {:.1f} +- {:.1f} % {} than its middle: corrected",
             100 * std::abs(v.share), 100 * v.sigma, v.share > 0 ? "darker" : "brighter"));
     }
-    const bool moved = checked.colour && checked.colour->used;
+    const bool moved = checked.found.colour_shift && checked.found.colour_shift->used;
     if (!moved && std::abs(config.source.vignetting) < kLookAgain) return Status::Ok();
     Result<std::unique_ptr<FrameSource>> again = OpenSource(request.source, config);
     if (!again.ok()) return again.status();
     seen = LookAtFirstSeconds(std::move(again.value()), request.selection, given.one_camera,
                               config.pipeline.shutter.colour_readout_s);
     if (config.source.vignetting != 0 && seen.camera && seen.camera->plausible())
-        config.source.vignetting = checked.vignetting->share += seen.camera->vignetting;
+        config.source.vignetting = checked.found.vignetting->share += seen.camera->vignetting;
     return Status::Ok();
 }
 
@@ -192,10 +194,10 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
                             GivenBy(given.name), given.camera.fx, camera->fx));
     } else if (given.one_camera) {
         Result<std::optional<PinholeCamera>> found =
-            FindCamera(request, corrected, given, seen.camera, checked.camera);
+            FindCamera(request, corrected, given, seen.camera, checked.found.camera);
         if (!found.ok()) return found.status();
         camera = found.value();
-        Describe(given, checked.camera, checked.messages);
+        Describe(given, checked.found.camera, checked.messages);
     }
     if (Status status = OpenCorrected(request, corrected, camera, checked); !status.ok())
         return status;

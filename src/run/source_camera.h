@@ -3,28 +3,19 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/status.h"
 #include "io/frame_source.h"
-#include "optimize/camera_estimate.h"
-#include "optimize/colour_delay.h"
-#include "optimize/colour_shift.h"
-#include "optimize/depth_distortion_estimator.h"
 #include "run/run.h"
 
 namespace tessera {
 
 struct CheckedSource {
     std::unique_ptr<FrameSource> source;  // opened with the camera to use, at the first frame
-    std::optional<CameraReport> camera;   // if it was estimated
-    std::optional<ColourShift> colour;    // if it was estimated
-    std::optional<ColourDelay> delay;     // if it was estimated
-    std::optional<VignettingReport> vignetting;
-    std::optional<DepthDistortionEstimate> depth;  // if it was estimated
-    std::vector<std::string> messages;             // for the user
+    CameraFindings found;
+    std::vector<std::string> messages;  // for the user
 };
 
 // Estimates the camera for recordings only: the first frames of a live camera belong to the run, a

@@ -5,7 +5,7 @@
 namespace tessera {
 
 void LoopJournal::Begin(const LoopCloser& closer) {
-    passages_ = closer.passages().size();
+    passages_ = closer.graph().passages().size();
     next_ordinal_ = closer.store().next_ordinal();
     touched_.clear();
     poses_.clear();
@@ -19,9 +19,9 @@ void LoopJournal::Begin(const LoopCloser& closer) {
 
 LoopChanges LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
     LoopChanges news;
-    news.passages.assign(closer.passages().begin() + static_cast<std::ptrdiff_t>(passages_),
-                         closer.passages().end());
-    passages_ = closer.passages().size();
+    news.passages.assign(closer.graph().passages().begin() + static_cast<std::ptrdiff_t>(passages_),
+                         closer.graph().passages().end());
+    passages_ = closer.graph().passages().size();
     for (const std::int64_t index : std::exchange(touched_, {}))
         if (const StoredFrame* frame = closer.store().Find(index);
             frame != nullptr && frame->ordinal < next_ordinal_)
@@ -49,8 +49,8 @@ LoopChanges LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames)
         poses_[at] = poses;
         news.poses.emplace_back(id, poses);
     }
-    news.progress = {closer.edges(), closer.store().next_ordinal(), closer.loops(),
-                     closer.corrected()};
+    news.progress = {closer.graph().edges(), closer.store().next_ordinal(), closer.graph().loops(),
+                     closer.graph().corrected()};
     return news;
 }
 

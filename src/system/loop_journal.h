@@ -12,7 +12,7 @@ namespace tessera {
 
 // Holds copies only.
 struct LoopChanges {
-    std::vector<LoopCloser::PathPose> passages;  // new, in order
+    std::vector<PathPose> passages;  // new, in order
     // New frames, and frames whose detections arrived since.
     std::vector<StoredFrame> frames;
     std::vector<Keyframe> keyframes;                   // new, or with new overlaps; in order

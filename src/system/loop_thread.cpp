@@ -124,7 +124,7 @@ void LoopThread::Correct() {
 
 // At the end of the run nothing else runs, so this uses all cores.
 void LoopThread::Conclude() {
-    if (closer_->corrected())
+    if (closer_->graph().corrected())
         around_.notices.Tell("optimising the corrected path once more; the map follows it");
     std::string note;
     const BlockMap* map = last_version_ == version() ? last_map_ : nullptr;

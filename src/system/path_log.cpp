@@ -23,7 +23,7 @@ void PathLog::Add(std::int64_t number, const PathRecord& record, ScanCheckpoint&
 }
 
 void PathLog::Place(LoopChanges& news, ScanCheckpoint& into) {
-    for (const LoopCloser::PathPose& passage : news.passages)
+    for (const PathPose& passage : news.passages)
         while (!waiting_.empty()) {
             auto [number, record] = waiting_.front();
             waiting_.pop_front();

@@ -19,19 +19,19 @@ Status RestoreMap(const std::string& path, ScanContent& scan, MappingStage& mapp
 // Frames that loop closure had not yet processed keep their pose in the map.
 LoopCloser::Memory TakeLoopMemory(ScanContent& scan) {
     LoopCloser::Memory memory;
-    memory.keyframes = std::move(scan.keyframes);
-    memory.edges = std::move(scan.loops.edges);
+    memory.graph.keyframes = std::move(scan.keyframes);
+    memory.graph.edges = std::move(scan.loops.edges);
     for (const PathRecord& record : scan.path) {
-        if (!record.tracked() || memory.keyframes.empty()) continue;
+        if (!record.tracked() || memory.graph.keyframes.empty()) continue;
         if (record.keyframe >= 0) {
-            memory.passages.push_back(
+            memory.graph.passages.push_back(
                 {record.stamp_s, record.keyframe, record.T_reference_camera, record.fused});
-        } else if (!memory.passages.empty()) {
-            const int last = memory.passages.back().keyframe;
+        } else if (!memory.graph.passages.empty()) {
+            const int last = memory.graph.passages.back().keyframe;
             const Eigen::Isometry3d& T_map_keyframe =
-                memory.keyframes[static_cast<std::size_t>(last)].T_map_camera;
+                memory.graph.keyframes[static_cast<std::size_t>(last)].T_map_camera;
             if (InOnePart(T_map_keyframe, record.T_reference_camera))
-                memory.passages.push_back(
+                memory.graph.passages.push_back(
                     {record.stamp_s, last,
                      Normalised(T_map_keyframe.inverse() * record.T_reference_camera),
                      record.fused});
@@ -40,8 +40,8 @@ LoopCloser::Memory TakeLoopMemory(ScanContent& scan) {
     for (FrameRecord& frame : scan.frames)
         if (frame.in_store) memory.frames.push_back(std::move(frame.stored));
     memory.next_ordinal = scan.loops.next_ordinal;
-    memory.loops = scan.loops.loops;
-    memory.corrected = scan.loops.corrected;
+    memory.graph.loops = scan.loops.loops;
+    memory.graph.corrected = scan.loops.corrected;
     return memory;
 }
 

@@ -17,7 +17,7 @@ constexpr double kStartFramePeriod_s = 1.0 / 60, kStartLongest_s = 0.5;
 
 // Members are destroyed in reverse order: the window with its context last.
 struct StartScreen::Impl {
-    Impl(std::shared_ptr<Window> opened, StartServices services, const StartOptions& given)
+    Impl(std::shared_ptr<Window> opened, StartServices services, const ScreenOptions& given)
         : window(std::move(opened)), options(given), state(std::move(services)) {}
 
     void DrawFrame();
@@ -25,7 +25,7 @@ struct StartScreen::Impl {
     void Iterate();
 
     std::shared_ptr<Window> window;
-    const StartOptions options;
+    const ScreenOptions options;
     StartState state;
     Stopwatch clock;
     double drawn_at_s = -1e9;
@@ -33,7 +33,7 @@ struct StartScreen::Impl {
 };
 
 Result<std::unique_ptr<StartScreen>> StartScreen::Open(StartServices services,
-                                                       const StartOptions& options) {
+                                                       const ScreenOptions& options) {
     Result<std::shared_ptr<Window>> window =
         Window::OpenOrKeep(nullptr, "Tessera", options.width, options.height, options.scale);
     if (!window.ok()) return window.status();

@@ -11,6 +11,7 @@
 #include "core/image.h"
 #include "core/status.h"
 #include "io/openni_devices.h"
+#include "viz/screen_options.h"
 #include "viz/start_choices.h"
 #include "viz/viewer.h"
 
@@ -32,20 +33,12 @@ struct StartServices {
     std::string recent_file;          // RecentFile(); empty: nothing is remembered
 };
 
-struct StartOptions {
-    // Initial size of the window, in pixels of a standard-density display.
-    int width = 1280, height = 720;
-    double wait_s = 1.0 / 30;     // maximum sleep of RunOnce when there is nothing to do
-    double double_click_s = 0.3;  // maximum time between the two clicks
-    double scale = 0;             // of text and sizes; 0: the display's
-};
-
 // Main thread only: opened, run and destroyed there.
 class StartScreen {
   public:
     // Fails with a one-line message if there is no display, or if the build has no window.
     static Result<std::unique_ptr<StartScreen>> Open(StartServices services,
-                                                     const StartOptions& options);
+                                                     const ScreenOptions& options);
     ~StartScreen();
     StartScreen(const StartScreen&) = delete;
     StartScreen& operator=(const StartScreen&) = delete;

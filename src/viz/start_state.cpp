@@ -31,37 +31,27 @@ std::vector<std::string> ThatExist(std::vector<std::string> paths) {
 StartState::StartState(StartServices given)
     : services(std::move(given)),
       recent_(ThatExist(ReadRecentPaths(services.recent_file))),
-      examiner_(1,
-                [this](std::string& path) {
-                    findings_.Push({path, services.examine(path)});
-                }),
-      lister_(1, [this](char&) { listings_.Push(services.list_cameras()); }) {
+      lookup_(services) {
     choices.output_folder = NewOutputFolder();
     Put(choices.output_folder, typed_output);
     EnterFolder(folder_);
 }
 
 bool StartState::Update() {
-    bool any = false;
-    while (findings_.TryPop(examined_)) any = true;
-    OpenniListing listing;
-    while (listings_.TryPop(listing)) {
-        cameras_ = std::move(listing);
-        const auto& devices = cameras_->devices;
+    if (!lookup_.Update()) return false;
+    if (cameras()) {
+        const auto& devices = cameras()->devices;
         if (std::ranges::find(devices, choices.camera, &OpenniDevice::uri) == devices.end())
             choices.camera = devices.empty() ? "" : devices.front().uri;
-        any = true;
     }
-    return any;
+    return true;
 }
 
 void StartState::Choose(const std::string& path) {
     choices.path = path;
     if (path != typed_path.data()) Put(path, typed_path);
     const std::string source = SourceOf(choices);
-    // What is wrong may have been put right.
-    if (!source.empty() && (source != asked_ || examined_.finding.failed))
-        examiner_.PushNewest(std::string(asked_ = source));
+    if (!source.empty()) lookup_.Examine(source);
     Changed();
 }
 
@@ -70,15 +60,9 @@ void StartState::EnterFolder(const std::string& folder) {
     list_ = ListFolder(folder);
 }
 
-void StartState::RefreshCameras() {
-    cameras_asked_ = true;
-    cameras_.reset();
-    lister_.PushNewest(0);
-}
-
 void StartState::ShowPage(StartPage page) {
     choices.page = page;
-    if (page == StartPage::kCamera && !cameras_asked_) RefreshCameras();
+    if (page == StartPage::kCamera && !lookup_.cameras_asked()) RefreshCameras();
     Changed();
 }
 
@@ -107,10 +91,10 @@ PathFinding StartState::finding() const {
     }
     if (choices.path.empty())
         found.text = "Choose a recording to scan, or a finished scan to look at.";
-    else if (SourceOf(choices) != examined_.path)
-        found.text = "Looking ...";
+    else if (const PathFinding* known = lookup_.FindingOf(SourceOf(choices)))
+        return *known;
     else
-        return examined_.finding;
+        found.text = "Looking ...";
     return found;
 }
 

@@ -62,8 +62,8 @@ struct Viewer::Impl {
 Result<std::unique_ptr<Viewer::Impl>> Viewer::Impl::Make(ViewerLink* link,
                                                          const ViewerOptions& options) {
     const std::string title = options.title.empty() ? "Tessera" : options.title + " - Tessera";
-    Result<std::shared_ptr<Window>> window =
-        Window::OpenOrKeep(options.window, title, options.width, options.height, options.scale);
+    Result<std::shared_ptr<Window>> window = Window::OpenOrKeep(
+        options.window, title, options.screen.width, options.screen.height, options.screen.scale);
     if (!window.ok()) return window.status();
     auto impl = std::make_unique<Impl>(std::move(window.value()), link, options);
     Result<std::unique_ptr<SceneView>> scene =
@@ -136,8 +136,8 @@ void Viewer::Impl::TakeFromLink(ViewerLink& link) {
 }
 
 bool Viewer::Impl::RunOnce() {
-    ImGui::GetIO().MouseDoubleClickTime = static_cast<float>(state.options.double_click_s);
-    if (window->WaitForInput(state.options.wait_s)) rounds_to_draw = kSettlingRounds;
+    ImGui::GetIO().MouseDoubleClickTime = static_cast<float>(state.options.screen.double_click_s);
+    if (window->WaitForInput(state.options.screen.wait_s)) rounds_to_draw = kSettlingRounds;
     const double now_s = state.now_s = clock.ElapsedMs() / 1000;
     ViewerLink* const link = state.link;
     const double since_s = std::min(now_s - before_s, 1.0);

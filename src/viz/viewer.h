@@ -14,6 +14,7 @@
 #include "system/viewer_link.h"
 #include "viz/background_job.h"
 #include "viz/frame_images.h"
+#include "viz/screen_options.h"
 #include "viz/time_line.h"
 
 namespace tessera {
@@ -38,8 +39,7 @@ enum class ViewKind {
 
 struct ViewerOptions {
     std::string title;  // name of what is scanned or shown
-    // Initial size of the window, in pixels of a standard-density display.
-    int width = 1280, height = 720;
+    ScreenOptions screen;
     // For screenshots, saved meshes and recordings; created when first needed.
     std::string output_folder = ".";
     std::string measurements;    // file that keeps them; empty: they are not kept
@@ -56,10 +56,7 @@ struct ViewerOptions {
     bool follow = true;
     // When ViewerLink::ended is set; otherwise the user closes the window.
     bool close_at_end = false;
-    double wait_s = 1.0 / 30;     // maximum sleep of RunOnce when there is nothing to do
-    double double_click_s = 0.3;  // maximum time between the two clicks
-    double max_fps = 0;           // drawing rate; 0: 60 on a GPU, 15 in software
-    double scale = 0;             // of text and sizes; 0: the display's
+    double max_fps = 0;  // drawing rate; 0: 60 on a GPU, 15 in software
     // Go on in this window (StartScreen::window) instead of opening one.
     std::shared_ptr<Window> window;
 };

@@ -28,7 +28,7 @@ std::optional<ControlRect> Viewer::FindControl(const std::string&) const { retur
 struct StartScreen::Impl {
     StartChoices choices;
 };
-Result<std::unique_ptr<StartScreen>> StartScreen::Open(StartServices, const StartOptions&) {
+Result<std::unique_ptr<StartScreen>> StartScreen::Open(StartServices, const ScreenOptions&) {
     return Off();
 }
 StartScreen::~StartScreen() = default;

@@ -41,8 +41,8 @@ TEST(LoopCloser, TakesAFifthOrLessOfTheDriftToTheEndAndTheMapFollows) {
     RecordProperty("before_mm", std::to_string(1000 * before_m));
     RecordProperty("after_mm", std::to_string(1000 * after_m));
     std::cout << "end-point error " << 1000 * before_m << " mm without, " << 1000 * after_m
-              << " mm with; " << with.closer.loops() << " loops, " << with.closer.keyframes().size()
-              << " keyframes\n"
+              << " mm with; " << with.closer.graph().loops() << " loops, "
+              << with.closer.keyframes().size() << " keyframes\n"
               << with.all_news;
     EXPECT_GT(before_m, 0.07);
     EXPECT_LE(after_m, before_m / 5);
@@ -97,8 +97,8 @@ TEST(LoopCloser, CorrectsWhatTheMapCanShow) {
                   << walker->all_news;
     }
     EXPECT_LE(EndError_m(frames, in_fine.closer.Path()), 0.008);
-    EXPECT_TRUE(in_fine.closer.corrected());
-    EXPECT_FALSE(in_coarse.closer.corrected());
+    EXPECT_TRUE(in_fine.closer.graph().corrected());
+    EXPECT_FALSE(in_coarse.closer.graph().corrected());
 }
 
 // Tracking drifts by half a metre and ten degrees, which is more than a walk of 4 m explains,
@@ -154,17 +154,18 @@ TEST(LoopCloser, SwitchedOffItClosesNothingUntilItIsOnAgain) {
         std::string note;
         walker.Take(walker.closer.Finish(note));
         EXPECT_EQ(walker.corrections > 0, on_again);
-        EXPECT_EQ(walker.closer.loops() > 0, on_again);
+        EXPECT_EQ(walker.closer.graph().loops() > 0, on_again);
     }
 }
 
 // Loops between keyframes in different rooms, which are 6 m apart.
 int FalseLoops(const LoopCloser& closer) {
-    return static_cast<int>(std::ranges::count_if(closer.edges(), [&](const PoseEdge& edge) {
-        const Eigen::Isometry3d &a = closer.keyframes()[edge.from].T_map_camera,
-                                &b = closer.keyframes()[edge.to].T_map_camera;
-        return edge.loop && (a.translation() - b.translation()).norm() > 3;
-    }));
+    return static_cast<int>(
+        std::ranges::count_if(closer.graph().edges(), [&](const PoseEdge& edge) {
+            const Eigen::Isometry3d &a = closer.keyframes()[edge.from].T_map_camera,
+                                    &b = closer.keyframes()[edge.to].T_map_camera;
+            return edge.loop && (a.translation() - b.translation()).norm() > 3;
+        }));
 }
 
 // The second room repeats the images of the first one. Only the path between them distinguishes

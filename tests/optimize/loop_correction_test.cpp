@@ -190,7 +190,7 @@ TEST(LoopCloser, AMapMovedDuringTheRunHasEveryFrame) {
     EXPECT_GT(gone.size(), before + 5);
     BlockMap fresh(walker.settings.map);
     for (std::size_t i = 0; i < gone.size(); ++i) {
-        const LoopCloser::PathPose& pose = walker.closer.passages()[i];
+        const PathPose& pose = walker.closer.graph().passages()[i];
         PreparedFrame prepared;
         PrepareFrame(*gone[i], walker.settings.preparation, prepared);
         Integrator::View view;

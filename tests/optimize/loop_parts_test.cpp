@@ -193,7 +193,7 @@ TEST_F(LoopParts, AreJoinedByALostCameraThatIsFoundInBoth) {
     EXPECT_EQ(note.find("joined"), std::string::npos) << note;
     ASSERT_TRUE(relocalise(100)) << note;
     EXPECT_NE(note.find("is joined with"), std::string::npos) << note;
-    EXPECT_EQ(PartsOf(walker.closer.edges(), walker.closer.keyframes().all()),
+    EXPECT_EQ(PartsOf(walker.closer.graph().edges(), walker.closer.keyframes().all()),
               std::vector<int>(static_cast<std::size_t>(walker.closer.keyframes().size()), 0));
 }
 

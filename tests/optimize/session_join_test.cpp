@@ -55,39 +55,39 @@ TEST(AgreeOnPose, ViewsOfOnePlaceAreNotEnough) {
 
 TEST(AppendSession, MovesAndRenumbersWhatItAppends) {
     LoopCloser::Memory a, b;
-    a.keyframes = AlongAWall(2, 1.0);
+    a.graph.keyframes = AlongAWall(2, 1.0);
     a.next_ordinal = 10;
-    a.loops = 1;
-    b.keyframes = AlongAWall(3, 1.0);
-    b.keyframes[2].overlaps.push_back({1, Shifted(1), Matrix6d::Identity(), std::nullopt});
-    b.edges.push_back({0, 1, Shifted(1), Matrix6d::Identity(), false});
-    b.passages.push_back({5.0, 2, Shifted(0.1)});
+    a.graph.loops = 1;
+    b.graph.keyframes = AlongAWall(3, 1.0);
+    b.graph.keyframes[2].overlaps.push_back({1, Shifted(1), Matrix6d::Identity(), std::nullopt});
+    b.graph.edges.push_back({0, 1, Shifted(1), Matrix6d::Identity(), false});
+    b.graph.passages.push_back({5.0, 2, Shifted(0.1)});
     b.frames.resize(1);
     b.frames[0].ordinal = 4;
     b.frames[0].keyframe = 1;
     b.next_ordinal = 5;
     const JointPose pose{Shifted(7), {{1, 2, Shifted(0.5), Shifted(9)}}};
     AppendSession(std::move(b), pose, a);
-    ASSERT_EQ(a.keyframes.size(), 5u);
-    const Keyframe& last = a.keyframes[4];
+    ASSERT_EQ(a.graph.keyframes.size(), 5u);
+    const Keyframe& last = a.graph.keyframes[4];
     EXPECT_EQ(last.id, 4);
     EXPECT_EQ(last.overlaps[0].with, 3);
     EXPECT_NEAR(last.T_world_camera.translation().x(), 9, 1e-12);
     EXPECT_NEAR(last.T_map_camera.translation().x(), 9, 1e-12);
     EXPECT_NEAR(last.path_length_m, 3, 1e-12);  // after a's metre
-    ASSERT_EQ(a.edges.size(), 2u);
-    EXPECT_EQ(a.edges[0].from, 2);
-    EXPECT_EQ(a.edges[0].to, 3);
-    EXPECT_EQ(a.edges[1].from, 1);  // the link
-    EXPECT_EQ(a.edges[1].to, 4);
-    EXPECT_TRUE(a.edges[1].loop);
-    EXPECT_TRUE(a.edges[1].T_from_to.isApprox(Shifted(0.5)));
-    EXPECT_EQ(a.passages[0].keyframe, 4);
+    ASSERT_EQ(a.graph.edges.size(), 2u);
+    EXPECT_EQ(a.graph.edges[0].from, 2);
+    EXPECT_EQ(a.graph.edges[0].to, 3);
+    EXPECT_EQ(a.graph.edges[1].from, 1);  // the link
+    EXPECT_EQ(a.graph.edges[1].to, 4);
+    EXPECT_TRUE(a.graph.edges[1].loop);
+    EXPECT_TRUE(a.graph.edges[1].T_from_to.isApprox(Shifted(0.5)));
+    EXPECT_EQ(a.graph.passages[0].keyframe, 4);
     EXPECT_EQ(a.frames[0].ordinal, 14);
     EXPECT_EQ(a.frames[0].keyframe, 3);
     EXPECT_EQ(a.next_ordinal, 15);
-    EXPECT_EQ(a.loops, 2);
-    EXPECT_TRUE(a.corrected);
+    EXPECT_EQ(a.graph.loops, 2);
+    EXPECT_TRUE(a.graph.corrected);
 }
 
 }  // namespace

@@ -57,12 +57,12 @@ TEST_F(Run, BeginsWithTheRollingShutterThatTheRecordingShows) {
     const auto seen = Execute();
     config.check_camera = false;
     const auto unseen = Execute();
-    ASSERT_TRUE(seen.ok() && seen.value().camera && unseen.ok());
+    ASSERT_TRUE(seen.ok() && seen.value().found.camera && unseen.ok());
     config.pipeline.trackers.photometric.shutter.readout_s =
-        seen.value().camera->estimate.readout_s;
+        seen.value().found.camera->estimate.readout_s;
     const auto told = Execute();
     ASSERT_TRUE(told.ok() && told.value().ate && seen.value().ate && unseen.value().ate);
-    EXPECT_NEAR(seen.value().camera->estimate.readout_s, 0.03, 0.004);
+    EXPECT_NEAR(seen.value().found.camera->estimate.readout_s, 0.03, 0.004);
     EXPECT_NE(
         seen.value().source.notes.back().find("rolling shutter: read-out time of a colour image"),
         std::string::npos);

@@ -74,9 +74,9 @@ TEST(OpenCheckedSource, PutsColourBackOntoItsSurface) {
     RunConfig config;
     Result<CheckedSource> checked = OpenCheckedSource(request, config);
     ASSERT_TRUE(checked.ok()) << checked.message();
-    ASSERT_TRUE(checked.value().colour);
-    EXPECT_TRUE(checked.value().colour->used);
-    EXPECT_NEAR(checked.value().colour->x_px, 14, 0.5);
+    ASSERT_TRUE(checked.value().found.colour_shift);
+    EXPECT_TRUE(checked.value().found.colour_shift->used);
+    EXPECT_NEAR(checked.value().found.colour_shift->x_px, 14, 0.5);
     ASSERT_EQ(checked.value().messages.size(), 1u);
     EXPECT_NE(checked.value().messages[0].find("px right of and"), std::string::npos);
     const int perimeter_px = 4 * 150;
@@ -85,7 +85,7 @@ TEST(OpenCheckedSource, PutsColourBackOntoItsSurface) {
     config.check_camera = false;
     checked = OpenCheckedSource(request, config);
     ASSERT_TRUE(checked.ok()) << checked.message();
-    EXPECT_FALSE(checked.value().colour);
+    EXPECT_FALSE(checked.value().found.colour_shift);
     EXPECT_GT(PixelsBesideTheirSurface(*checked.value().source), 5 * perimeter_px);
 }
 
@@ -96,8 +96,8 @@ TEST(OpenCheckedSource, LeavesARightRegistrationAlone) {
     request.source = folder.path();
     const Result<CheckedSource> checked = OpenCheckedSource(request, RunConfig());
     ASSERT_TRUE(checked.ok()) << checked.message();
-    ASSERT_TRUE(checked.value().colour);
-    EXPECT_FALSE(checked.value().colour->used);
+    ASSERT_TRUE(checked.value().found.colour_shift);
+    EXPECT_FALSE(checked.value().found.colour_shift->used);
     EXPECT_TRUE(checked.value().source->info().one_camera);
     EXPECT_EQ(PixelsBesideTheirSurface(*checked.value().source), 0);
 }
@@ -111,9 +111,9 @@ TEST(OpenCheckedSource, CorrectsTheTimeStamps) {
     config.source.colour_delay_s = 0.005;  // part of it is known
     const Result<CheckedSource> checked = OpenCheckedSource(request, config);
     ASSERT_TRUE(checked.ok()) << checked.message();
-    ASSERT_TRUE(checked.value().delay);
-    EXPECT_TRUE(checked.value().delay->used);
-    EXPECT_NEAR(checked.value().delay->delay_s, 0.01, 0.001);
+    ASSERT_TRUE(checked.value().found.colour_delay);
+    EXPECT_TRUE(checked.value().found.colour_delay->used);
+    EXPECT_NEAR(checked.value().found.colour_delay->delay_s, 0.01, 0.001);
     ASSERT_FALSE(checked.value().messages.empty());
     EXPECT_NE(checked.value().messages[0].find("later than its time stamps say: corrected by"),
               std::string::npos);
@@ -123,7 +123,7 @@ TEST(OpenCheckedSource, CorrectsTheTimeStamps) {
     ASSERT_EQ(source.Read(frame).status, ReadStatus::kOk);
     const double corrected_s = frame.correction.colour_s - frame.correction.depth_s;
     EXPECT_NEAR(corrected_s, 0.015, 0.001);
-    EXPECT_DOUBLE_EQ(corrected_s, 0.005 + checked.value().delay->certain_s());
+    EXPECT_DOUBLE_EQ(corrected_s, 0.005 + checked.value().found.colour_delay->certain_s());
     EXPECT_NEAR(frame.stamp_s, 2 - corrected_s / 2, 1e-9);
     EXPECT_NEAR(frame.colour_stamp_s, 2 + corrected_s / 2, 1e-9);
 }
@@ -140,8 +140,8 @@ TEST(OpenCheckedSource, TellsWhetherDepthIsReadRowByRow) {
         const std::atomic<bool> stop{false};
         const Result<RunSummary> run = ExecuteRun(request, config, {}, stop);
         ASSERT_TRUE(run.ok()) << run.message();
-        ASSERT_TRUE(run.value().colour_delay);
-        EXPECT_FALSE(run.value().colour_delay->used);
+        ASSERT_TRUE(run.value().found.colour_delay);
+        EXPECT_FALSE(run.value().found.colour_delay->used);
         const bool rolls = std::ranges::any_of(run.value().source.notes, [](const std::string& n) {
             return n.find("depth is read row by row") != std::string::npos;
         });
@@ -162,9 +162,9 @@ TEST(OpenCheckedSource, EvensOutDarkCorners) {
     request.source = folder.path();
     const Result<CheckedSource> checked = OpenCheckedSource(request, RunConfig());
     ASSERT_TRUE(checked.ok()) << checked.message();
-    ASSERT_TRUE(checked.value().vignetting);
-    EXPECT_TRUE(checked.value().vignetting->used);
-    EXPECT_NEAR(checked.value().vignetting->share, 0.2, 0.02);
+    ASSERT_TRUE(checked.value().found.vignetting);
+    EXPECT_TRUE(checked.value().found.vignetting->used);
+    EXPECT_NEAR(checked.value().found.vignetting->share, 0.2, 0.02);
     ASSERT_EQ(checked.value().messages.size(), 1u);
     EXPECT_NE(checked.value().messages[0].find("% darker than its middle"), std::string::npos);
     Frame frame;
@@ -198,13 +198,13 @@ TEST(OpenCheckedSource, TakesTheErrorsFromDepth) {
             square_m2 += std::pow(frame.depth_m.data()[i] - truth.depth_m.data()[i], 2);
         const double rms_m = std::sqrt(square_m2 / static_cast<double>(truth.depth_m.size()));
         if (check) {
-            ASSERT_TRUE(checked.value().depth);
-            EXPECT_TRUE(checked.value().depth->used);
+            ASSERT_TRUE(checked.value().found.depth_distortion);
+            EXPECT_TRUE(checked.value().found.depth_distortion->used);
             ASSERT_EQ(checked.value().messages.size(), 1u);
             EXPECT_NE(checked.value().messages[0].find("wrong at 1 m"), std::string::npos);
             EXPECT_LT(rms_m, 0.006);
         } else {
-            EXPECT_FALSE(checked.value().depth);
+            EXPECT_FALSE(checked.value().found.depth_distortion);
             EXPECT_GT(rms_m, 0.015);
         }
     }

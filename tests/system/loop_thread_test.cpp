@@ -89,7 +89,7 @@ class LoopThreadTest : public testing::Test {
     Notices notices{mapping};
     LoopThread thread{{LoopConfig{}, settings, 5000, std::nullopt, true, std::nullopt},
                       {frames, tracked_frames, mapping, tracking, notices}};
-    std::vector<LoopCloser::PathPose> passages;
+    std::vector<PathPose> passages;
     std::map<int, KeyframePoses> poses;
     std::map<std::int64_t, StoredFrame> stored;
     std::set<int> keyframes;

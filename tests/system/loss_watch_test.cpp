@@ -149,7 +149,7 @@ TEST_F(LostCameraRun, AScanFileDoesNotShowWhatWasLeftOut) {
         EXPECT_EQ(stored[i].stamp_s, kept[i].stamp_s);
         EXPECT_TRUE(stored[i].T_world_camera.isApprox(kept[i].T_world_camera, 1e-6)) << i;
     }
-    EXPECT_EQ(TakeLoopMemory(scan.value()).passages.size(), kept.size() + 2);
+    EXPECT_EQ(TakeLoopMemory(scan.value()).graph.passages.size(), kept.size() + 2);
 }
 
 // The camera walks back to where it was before.

@@ -23,7 +23,7 @@ class PathLogTest : public testing::Test {
         log.Add(12, RecordAt(2), checkpoint);
         log.Add(13, RecordAt(3), checkpoint);
     }
-    static LoopCloser::PathPose PathPose(std::int64_t index, int keyframe) {
+    static PathPose Passage(std::int64_t index, int keyframe) {
         return {RecordAt(index).stamp_s, keyframe,
                 Eigen::Isometry3d(Eigen::Translation3d(0, 5, 0))};
     }
@@ -48,7 +48,7 @@ TEST_F(PathLogTest, TrackedFramesWaitForTheirPlaceAndMoveWithTheMap) {
 
 TEST_F(PathLogTest, APlacedFrameIsWrittenOnceRelativeToItsKeyframe) {
     LoopChanges news;
-    news.passages = {PathPose(0, 4), PathPose(3, 5)};  // frame 2 was left out
+    news.passages = {Passage(0, 4), Passage(3, 5)};  // frame 2 was left out
     log.Place(news, checkpoint);
     ASSERT_EQ(Numbers(), (std::vector<std::int64_t>{11, 10, 12, 13}));
     EXPECT_EQ(checkpoint.path[1].second.keyframe, 4);
@@ -63,7 +63,7 @@ TEST_F(PathLogTest, FramesOfLoopClosureTakeTheNumberOfTheirPathAndTheRawOnesPlac
     checkpoint.raw_frames.emplace_back(10, std::make_unique<Frame>());
     checkpoint.raw_frames.emplace_back(12, std::make_unique<Frame>());
     LoopChanges news;
-    news.passages = {PathPose(0, 0), PathPose(2, 0)};
+    news.passages = {Passage(0, 0), Passage(2, 0)};
     news.frames.resize(2);
     news.frames[0].frame_index = 2;
     news.frames[1].frame_index = 7;  // matches no known frame

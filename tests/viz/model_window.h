@@ -13,7 +13,7 @@ class ModelWindow : public DrivenWindow {
     // `measurements`: as in ViewerOptions.
     void Open(ViewedModel model, const std::string& measurements = {}) {
         ViewerOptions options;
-        options.wait_s = 0;
+        options.screen.wait_s = 0;
         options.max_fps = 1e9;
         options.measurements = measurements;
         auto viewer = Viewer::OpenModel(std::move(model), options);

@@ -89,8 +89,8 @@ Status TimeLinePicture(const Arguments& a, testing_support::VirtualDisplay& disp
     if (!model.time_line) return Status::Error(a.run + ": has no time line");
     model.open_source = [&] { return OpenSource(a.recording, RunConfig()); };
     ViewerOptions options;
-    options.width = a.width;
-    options.height = a.height;
+    options.screen.width = a.width;
+    options.screen.height = a.height;
     if (model.time_line->run.camera) options.camera = *model.time_line->run.camera;
     auto viewer = Viewer::OpenModel(std::move(model), options);
     if (!viewer.ok()) return viewer.status();

@@ -66,7 +66,7 @@ TEST_F(ViewerEnd, ClosesAtTheEndIfAsked) {
     viewer_.reset();
     ViewerOptions options;
     options.close_at_end = true;
-    options.wait_s = 0;
+    options.screen.wait_s = 0;
     auto viewer = Viewer::Open(link_, options);
     ASSERT_TRUE(viewer.ok()) << viewer.message();
     EXPECT_TRUE(viewer.value()->RunOnce());
@@ -89,7 +89,7 @@ TEST_F(ViewerEnd, OneAfterAnother) {
     for (int i = 0; i < 3; ++i) {
         viewer_.reset();
         ViewerOptions options;
-        options.wait_s = 0;
+        options.screen.wait_s = 0;
         auto viewer = Viewer::Open(link_, options);
         ASSERT_TRUE(viewer.ok()) << viewer.message();
         viewer_ = std::move(viewer.value());

@@ -63,8 +63,8 @@ TEST_F(ViewerScan, The3DViewIsLargeAndNothingOverlaps) {
 class ViewerScanSmall : public ViewerScan {
   protected:
     void SetUp() override {
-        first_options_.width = 800;
-        first_options_.height = 600;
+        first_options_.screen.width = 800;
+        first_options_.screen.height = 600;
         ViewerScan::SetUp();
     }
 };

@@ -27,9 +27,9 @@ class WindowTest : public DrivenWindow {
         options.truncation_m = 0.16;
         options.labelled = true;
         options.settings.loops = true;
-        options.wait_s = 0;
+        options.screen.wait_s = 0;
         options.max_fps = 1e9;
-        options.double_click_s = 1e3;  // works on slow machines too
+        options.screen.double_click_s = 1e3;  // works on slow machines too
         auto viewer = Viewer::Open(link_, options);
         ASSERT_TRUE(viewer.ok()) << viewer.message();
         viewer_ = std::move(viewer.value());

@@ -51,9 +51,9 @@ Arguments Parse(int argc, char** argv) {
 ViewerOptions OptionsOf(const Arguments& a, const RunConfig& config, const SourceInfo& source) {
     ViewerOptions options;
     options.title = a.source;
-    options.width = a.width;
-    options.height = a.height;
-    options.scale = a.scale;
+    options.screen.width = a.width;
+    options.screen.height = a.height;
+    options.screen.scale = a.scale;
     options.camera = source.camera;
     options.truncation_m = config.pipeline.map.truncation_m;
     options.labelled = !a.labels.empty();
@@ -62,7 +62,7 @@ ViewerOptions OptionsOf(const Arguments& a, const RunConfig& config, const Sourc
     options.shading = a.shading;
     options.view_kind = a.view_kind;
     options.follow = a.follow;
-    options.wait_s = 0;
+    options.screen.wait_s = 0;
     return options;
 }
 

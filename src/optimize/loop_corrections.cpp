@@ -1,0 +1,106 @@
+// Corrected maps of LoopCloser, during a run and at its end.
+#include <limits>
+#include <utility>
+
+#include "core/se3.h"
+#include "optimize/loop_closer.h"
+
+namespace tessera {
+namespace {
+
+constexpr double kAnyDifference_m = -1;  // a tolerance
+
+}  // namespace
+
+std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
+    if (!seeking_) return std::nullopt;
+    graph_.ClearMoved();
+    // Surfaces closer than that are one surface to tracking; what is left waits for the end.
+    if (!corrector_.Begin(settings_.map.truncation_m)) return std::nullopt;
+    return StepCorrection(frames);
+}
+
+std::optional<LoopCloser::Correction> LoopCloser::StepCorrection(int frames) {
+    const std::unique_ptr<MapRebuild> made = corrector_.Step(frames);
+    if (!made) return std::nullopt;
+    const std::vector<Eigen::Isometry3d>& T_new_keyframe = made->T_world_keyframe();
+    Keyframes& keyframes = graph_.keyframes();
+    const int here = relocalised_at_.value_or(keyframes.last().id);
+    Correction correction;
+    correction.map = made->TakeMap();
+    correction.labels = made->TakeLabels();
+    correction.pager = made->TakePager();
+    correction.moved = made->has_copy();
+    correction.T_new_old = Normalised(T_new_keyframe[static_cast<std::size_t>(here)] *
+                                      keyframes[here].T_map_camera.inverse());
+    graph_.SetMapPoses(T_new_keyframe);
+    graph_.MarkMoved();
+    keyframes.Move(correction.T_new_old);
+    jumps_.Move(correction.T_new_old);
+    swapped_ = true;
+    return correction;
+}
+
+// All of what was begun.
+std::optional<LoopCloser::Correction> LoopCloser::MakeAll() {
+    return StepCorrection(std::numeric_limits<int>::max());
+}
+
+// Returns true if the scan shows another calibration, with which the map is to be made again.
+bool LoopCloser::Calibrate(std::string& note) {
+    if (!config_.refine_calibration || graph_.keyframes().empty()) return false;
+    const FieldSettings given = settings_;
+    const Result<CalibrationReport> found = CalibrateScan(graph_, frames_.store(), settings_);
+    if (found.ok()) calibration_ = found.value();
+    note = found.ok() ? CalibrationText(given.camera, given.preparation.disparity_offset_per_m,
+                                        found.value())
+                      : found.status().message();
+    return found.ok() && found.value().shown;
+}
+
+std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
+                                                         const BlockMap* in_use) {
+    std::optional<Correction> last;
+    frames_.StoreLatest();
+    if (seeking_ && graph_.corrected())
+        static_cast<void>(graph_.OptimiseAgain());  // else as it was
+    bool again = Calibrate(note);
+    if (const std::string left_out = graph_.KeepLargestPart(); !left_out.empty()) {
+        note += (note.empty() ? "" : "; ") + left_out;
+        again = true;
+    }
+    if (again) {
+        corrector_.Discard();
+        in_use = nullptr;
+        if (corrector_.Begin(kAnyDifference_m)) last = MakeAll();
+    }
+    if (!graph_.corrected()) return last;
+    if (in_use && (graph_.PartsMove() || !corrector_.MayMove(*in_use))) in_use = nullptr;
+    const double tolerance_m = settings_.map.voxel_size_m / 2;
+    // To move the map in use takes less time than what is left.
+    if (in_use)
+        corrector_.Discard();
+    else
+        corrector_.DiscardOutdated(tolerance_m);
+    while (corrector_.Begin(corrector_.doubtful() ? kAnyDifference_m : tolerance_m,
+                            std::exchange(in_use, nullptr)))
+        if (auto next = MakeAll()) last = std::move(next);
+    return last;
+}
+
+Result<LoopCloser::Correction> LoopCloser::MakeAgain() {
+    constexpr int kMostRounds = 100;
+    graph_.MarkCorrected();
+    for (int round = 0; round < kMostRounds; ++round) {
+        const bool last_round = graph_.FindOverlaps() == 0;
+        if (Status solved = graph_.Optimise(); !solved.ok()) return solved;
+        if (last_round) break;
+    }
+    static_cast<void>(graph_.KeepLargestPart());
+    std::optional<Correction> made;
+    if (corrector_.Begin(kAnyDifference_m)) made = MakeAll();
+    if (!made) return Status::Error(TakeError());
+    return std::move(*made);
+}
+
+}  // namespace tessera
