@@ -17,6 +17,7 @@
 #include "io/mesh_writers.h"
 #include "io/trajectory.h"
 #include "run/scan_export.h"
+#include "scan/shown_scan.h"
 
 namespace tessera {
 namespace {
@@ -48,7 +49,7 @@ struct Content {
 Result<Content> FromScan(const ExportArguments& a) {
     if (a.NeedsFrames())  // check before anything is written
         if (const auto frames = PosedFrames::Open(a.input); !frames.ok()) return frames.status();
-    Result<ScanContent> scan = ReadScan(a.input, {.map = a.NeedsMesh() || !a.grid.empty()});
+    Result<ScanContent> scan = ReadScanToShow(a.input, {.map = a.NeedsMesh() || !a.grid.empty()});
     if (!scan.ok()) return scan.status();
     Content content;
     content.path = scan.value().Path();

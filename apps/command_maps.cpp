@@ -8,6 +8,7 @@
 #include "export/level.h"
 #include "export/robot_maps.h"
 #include "run/scan_export.h"
+#include "scan/shown_scan.h"
 
 namespace tessera {
 namespace {
@@ -23,7 +24,7 @@ struct MapsArguments {
 
 // From the mesh, which takes a map of its own.
 Result<Level> LevelOf(const std::string& path) {
-    Result<ScanContent> scan = ReadScan(path, {});
+    Result<ScanContent> scan = ReadScanToShow(path, {});
     if (!scan.ok()) return scan.status();
     const std::vector<StampedPose> poses = scan.value().Path();
     const Result<TriangleMesh> mesh = MeshOfScan(scan.value());
@@ -53,7 +54,7 @@ Status Maps(const MapsArguments& a) {
         if (!level.ok()) return level.status();
         T_level_world = level.value().T_level_world;
     }
-    const Result<ScanContent> scan = ReadScan(a.scan, {});
+    const Result<ScanContent> scan = ReadScanToShow(a.scan, {});
     if (!scan.ok()) return scan.status();
     // Surfaces that the mesh leaves out count no more here.
     maps.occupancy.min_weight = maps.distances.min_weight =

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <filesystem>
 
 #include "core/path_length.h"
 #include "io/frame_recorder.h"
 #include "scan/scan_source.h"
+#include "scan/shown_scan.h"
 #include "system/mapping_stage.h"
 #include "system/run_config.h"
 
@@ -18,6 +20,7 @@ std::string MapText(const ScanContent& scan) {
     const BlockMap& map = *scan.map;
     Eigen::AlignedBox3i box;
     for (BlockId id = 1; id < map.size(); ++id) {
+        if (map.IsFree(id)) continue;
         const BlockCoord c = map.coord(id);
         box.extend(Eigen::Vector3i(c.x, c.y, c.z));
     }
@@ -62,7 +65,7 @@ Result<TriangleMesh> MeshOfScan(ScanContent& scan) {
 
 Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path,
                                     std::vector<Eigen::Isometry3d>* path) {
-    Result<ScanContent> scan = ReadScan(scan_path, {});
+    Result<ScanContent> scan = ReadScanToShow(scan_path, {});
     if (!scan.ok()) return scan.status();
     if (path != nullptr)
         for (const StampedPose& pose : scan.value().Path()) path->push_back(pose.T_world_camera);
@@ -88,8 +91,9 @@ Result<std::string> DescribeScan(const std::string& path) {
     Result<std::unique_ptr<ScanFile>> opened = ScanFile::OpenToRead(path);
     if (!opened.ok()) return opened.status();
     ScanFile& file = *opened.value();
-    const Result<ScanContent> content = ReadScan(file, {});
+    Result<ScanContent> content = ReadScan(file, {});
     if (!content.ok()) return content.status();
+    RemoveHiddenBlocks(content.value());
     const ScanContent& scan = content.value();
     const PinholeCamera& c = scan.meta.camera;
     std::string text = fmt::format(
@@ -104,6 +108,9 @@ Result<std::string> DescribeScan(const std::string& path) {
     if (!scan.path.empty())
         text += fmt::format(", {:.6f} to {:.6f} s", scan.path.front().stamp_s,
                             scan.path.back().stamp_s);
+    const auto hidden = std::ranges::count_if(scan.path, &PathRecord::tracked) - std::ssize(poses);
+    if (hidden > 0)
+        text += fmt::format("\nframes that nothing joins with the rest, not shown: {}", hidden);
     text += "\n" + MapText(scan);
     if (scan.meta.loops)
         text += fmt::format("loop closure: {} keyframes, {} loops\n", scan.keyframes.size(),

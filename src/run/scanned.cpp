@@ -2,6 +2,7 @@
 
 #include "io/mesh_io.h"
 #include "run/scan_export.h"
+#include "scan/shown_scan.h"
 
 namespace tessera {
 
@@ -14,7 +15,7 @@ Result<Scanned> ReadRunFolder(const std::string& folder) {
 }
 
 Result<Scanned> ReadScanFile(const std::string& path) {
-    Result<ScanContent> scan = ReadScan(path, {});
+    Result<ScanContent> scan = ReadScanToShow(path, {});
     if (!scan.ok()) return scan.status();
     Result<TriangleMesh> mesh = MeshOfScan(scan.value());
     if (!mesh.ok()) return mesh.status();

@@ -28,6 +28,12 @@ struct ScanContent {
     // Saved states of TrackingStage and LabelMapper; may be empty.
     Bytes tracking, labels;
 
+    bool LeftOut(int keyframe) const {
+        return !left_out.empty() && left_out[static_cast<std::size_t>(keyframe)];
+    }
+    // Whether a place in the map belongs to what is shown and exported: not to a part that is left
+    // out, or that was joined but is not in place yet.
+    bool Shows(const Eigen::Isometry3d& T_map) const;
     // The current T_world_camera of a frame of the path; nullopt if it was not tracked, or is in a
     // part of the scan that is left out.
     std::optional<Eigen::Isometry3d> PoseOf(const PathRecord& record) const;
