@@ -2,32 +2,26 @@
 // the last second, and the resumed run must end with the same result as an uninterrupted run. The
 // same is tested with loop closure, in live mode, and with a third of the map paged out.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "apps/killed_program.h"
 #include "eval/ate.h"
 #include "io/trajectory.h"
 #include "scan/scan_content.h"
-#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using testing_support::KilledProgram;
 
-double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-
-class KilledScan : public testing::Test {
+class KilledScan : public KilledProgram {
   protected:
     std::vector<std::string> Arguments(const std::string& out,
                                        const std::vector<std::string>& more) const {
@@ -40,28 +34,6 @@ class KilledScan : public testing::Test {
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
-    pid_t Start(const std::vector<std::string>& arguments) const {
-        std::vector<char*> argv{const_cast<char*>(TESSERA_PROGRAM)};
-        for (const std::string& argument : arguments)
-            argv.push_back(const_cast<char*>(argument.c_str()));
-        argv.push_back(nullptr);
-        const pid_t child = fork();
-        if (child == 0) {
-            const std::string log = folder / "log";
-            if (std::freopen(log.c_str(), "a", stdout) == nullptr ||
-                std::freopen(log.c_str(), "a", stderr) == nullptr)
-                _exit(99);
-            execv(TESSERA_PROGRAM, argv.data());
-            _exit(98);
-        }
-        return child;
-    }
-    static int WaitFor(pid_t child) {
-        int status = 0;
-        waitpid(child, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    int Call(const std::vector<std::string>& arguments) const { return WaitFor(Start(arguments)); }
     double Ate(const std::string& out) const {
         const auto truth = ReadTrajectory(sequence + "/groundtruth.txt"),
                    path = ReadTrajectory(out + "/trajectory.txt");
@@ -77,22 +49,7 @@ class KilledScan : public testing::Test {
         for (std::string line; std::getline(lines, line);) ++count;
         return count;
     }
-    std::string Log() const { return Bytes(folder / "log"); }
 
-    void MakeSequence(const std::string& scene, int length) const {
-        ASSERT_EQ(Call({"synth",    scene,
-                        "--out",    sequence,
-                        "--frames", std::to_string(length),
-                        "--noise",  "kinect",
-                        "--set",    "synthetic.width=320",
-                        "--set",    "synthetic.height=240",
-                        "--set",    "synthetic.fx=262.5",
-                        "--set",    "synthetic.fy=262.5",
-                        "--set",    "synthetic.cx=159.5",
-                        "--set",    "synthetic.cy=119.5"}),
-                  0)
-            << Log();
-    }
     void KillAndResume(int times);
     void ExpectSame(const std::string& a, const std::string& b) const {
         for (const char* file : {"/mesh.ply", "/trajectory.txt"})
@@ -104,14 +61,7 @@ class KilledScan : public testing::Test {
         const std::size_t at = timings.find(key);
         return at == std::string::npos ? 0 : std::atoi(timings.c_str() + at + key.size());
     }
-    static std::string Bytes(const std::string& path) {
-        std::stringstream bytes;
-        bytes << std::ifstream(path, std::ios::binary).rdbuf();
-        return bytes.str();
-    }
 
-    TempFolder folder;
-    std::string sequence = folder / "sequence";
     int frames = 150;
     std::vector<std::string> options;  // of every run
     bool exact = true;                 // resumed output equals an uninterrupted run's
@@ -129,12 +79,7 @@ void KilledScan::KillAndResume(int times) {
             run_s * (0.1 + 0.9 * std::uniform_real_distribution<double>()(random));
         // Otherwise the trajectory of the previous run would be counted.
         std::filesystem::remove_all(out);
-        const Clock::time_point start = Clock::now();
-        const pid_t child = Start(Arguments(out, {"--scan", scan}));
-        std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(
-                                                  std::chrono::duration<double>(kill_s)));
-        kill(child, SIGKILL);
-        waitpid(child, nullptr, 0);
+        Kill(Arguments(out, {"--scan", scan}), kill_s);
         const int tracked = LinesOf(out + "/trajectory.txt");
         // Killed before the scan file was created.
         if (!std::filesystem::exists(scan)) continue;
@@ -209,10 +154,7 @@ TEST_F(KilledScan, LiveWithLoopClosure) {
         std::vector<std::string> more = live;
         more.insert(more.end(), {"--scan", scan});
         std::filesystem::remove_all(out);
-        const pid_t child = Start(Arguments(out, more));
-        std::this_thread::sleep_for(std::chrono::duration<double>(kill_s));
-        kill(child, SIGKILL);
-        waitpid(child, nullptr, 0);
+        Kill(Arguments(out, more), kill_s);
         const int tracked = LinesOf(out + "/trajectory.txt");
         if (!std::filesystem::exists(scan)) continue;
         const auto content = ReadScan(scan, {.map = true, .frames = true});
