@@ -121,6 +121,11 @@ int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
     const int waiting = UpdateMesher(mesher_, budget_blocks);
     update.voxel_size_m = map_->config().voxel_size_m;
     update.clear = std::exchange(mesh_cleared_, false);
+    // The oldest are meshed first.
+    never_meshed_ = update.clear
+                        ? waiting
+                        : std::max(0, never_meshed_ - static_cast<int>(mesher_.updated().size()));
+    update.whole = never_meshed_ == 0;
     if (labels_) labels_->Meshed(*map_, mesher_.updated());
     if (labels_) geometry_.MarkAgain(labels_->TakeRelabelled(*map_));
     const auto mark = [this](const BlockMesh& owner, const BlockMesh::Vertex& vertex) {

@@ -26,6 +26,8 @@ inline MapStatistics StatisticsOf(const BlockMap& map) {
 struct MeshUpdate {
     double voxel_size_m = 0;
     bool clear = false;  // first discard all earlier blocks
+    // With these blocks, all that the map had when the earlier ones were discarded have been sent.
+    bool whole = true;
     std::vector<GeometryBlock> blocks;
 };
 
@@ -155,6 +157,7 @@ class MappingStage {
     };
     std::optional<Following> following_;
     bool mesh_cleared_ = false;  // since the last UpdateMesh
+    int never_meshed_ = 0;       // blocks, of those that the map had when it was cleared
 };
 
 }  // namespace tessera

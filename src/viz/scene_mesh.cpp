@@ -9,9 +9,10 @@ namespace tessera {
 void SceneMesh::SetModel(const ViewedModel& model, const Eigen::Vector3d& up) {
     model_.Set(model.mesh, model.mesh.labels.empty() ? std::vector<Rgb8>()
                                                      : CategoryColours(model.mesh, model.objects));
-    for (const Eigen::Vector3f& vertex : model.mesh.vertices) bounds_.extend(vertex.cast<double>());
-    up_ = UpEstimator(up);
-    for (const Eigen::Vector3f& normal : model.mesh.normals) up_.Add(normal);
+    for (const Eigen::Vector3f& vertex : model.mesh.vertices)
+        surface_->bounds.extend(vertex.cast<double>());
+    surface_->up = UpEstimator(up);
+    for (const Eigen::Vector3f& normal : model.mesh.normals) surface_->up.Add(normal);
 }
 
 bool SceneMesh::Take(ViewerLink& link, std::size_t most_bytes) {
@@ -20,8 +21,12 @@ bool SceneMesh::Take(ViewerLink& link, std::size_t most_bytes) {
     while (bytes < most_bytes) {
         if (pending_done_ == pending_.blocks.size() && !NextUpdate(link)) break;
         bytes += Upload(most_bytes - bytes);
+        if (pending_done_ == pending_.blocks.size() && pending_.whole) before_.reset();
         any = true;
     }
+    // After a run nothing more may come.
+    if (link.ended && link.meshes.empty() && pending_done_ == pending_.blocks.size())
+        before_.reset();
     return any;
 }
 
@@ -30,10 +35,8 @@ bool SceneMesh::NextUpdate(ViewerLink& link) {
     pending_.blocks.clear();
     if (!link.meshes.TryPop(pending_)) return false;
     if (pending_.clear) {
-        store_.Clear();
-        bounds_.setEmpty();
-        up_.Clear();
-        coverage_.Clear();
+        if (!before_ && surface_->store.triangles() > 0) before_ = std::move(surface_);
+        surface_ = std::make_unique<Surface>(levels_);
     }
     return true;
 }
@@ -47,21 +50,21 @@ std::size_t SceneMesh::Upload(std::size_t most_bytes) {
         bytes += block.geometry.vertices.size() * sizeof(GeometryVertex) +
                  block.geometry.indices.size() * 2 + 64;
         if (block.geometry.indices.empty()) continue;
-        up_.Add(block.geometry);
+        surface_->up.Add(block.geometry);
         const double side_m = kBlockSide * pending_.voxel_size_m;
         const Eigen::Vector3d corner(block.coord.x, block.coord.y, block.coord.z);
-        bounds_.extend(corner * side_m);
-        bounds_.extend((corner + Eigen::Vector3d::Ones()) * side_m);
+        surface_->bounds.extend(corner * side_m);
+        surface_->bounds.extend((corner + Eigen::Vector3d::Ones()) * side_m);
     }
     const auto taken = std::span(pending_.blocks).subspan(first, pending_done_ - first);
-    store_.Replace(pending_.voxel_size_m, taken);
-    coverage_.Take(taken);
+    surface_->store.Replace(pending_.voxel_size_m, taken);
+    surface_->coverage.Take(taken);
     return bytes;
 }
 
 void SceneMesh::Draw(const Eigen::Matrix4d& clip, const Eigen::Isometry3d& T_world_view,
                      int location) {
-    store_.Draw(clip, T_world_view, location);
+    (before_ ? before_ : surface_)->store.Draw(clip, T_world_view, location);
     model_.Draw(clip, T_world_view, location);
 }
 

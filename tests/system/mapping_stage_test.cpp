@@ -38,6 +38,36 @@ std::map<std::string, int> Numbers(MappingStage& mapping) {
     return numbers;
 }
 
+// The window waits for this before it shows another map.
+TEST(MappingStage, TellsWhenAllOfAMapWasMeshed) {
+    PipelineConfig pipeline;
+    pipeline.map = {.voxel_size_m = 0.01, .truncation_m = 0.04};
+    MappingStage mapping(pipeline, {0, 0}, kCamera);
+    std::unique_ptr<BlockMap> map = Wall();
+    BlockMap& changing = *map;
+    mapping.Resume(std::move(map), 0);
+    MeshUpdate update;
+    int updates = 0, waiting = 1;
+    for (; waiting > 0; ++updates) {
+        waiting = mapping.UpdateMesh(100, update);
+        EXPECT_EQ(update.clear, updates == 0);
+        EXPECT_EQ(update.whole, waiting == 0);
+    }
+    EXPECT_GE(updates, 4);
+    // What changes later is new in the same map.
+    for (BlockId id = 1; id < changing.size(); ++id) changing.MarkChanged(id, 100);
+    EXPECT_GT(mapping.UpdateMesh(100, update), 0);
+    EXPECT_TRUE(update.whole && !update.clear);
+    // A map that is as large again, after it was whole.
+    mapping.Resume(Wall(), 1);
+    mapping.UpdateMesh(100, update);
+    EXPECT_TRUE(update.clear);
+    EXPECT_FALSE(update.whole);
+    mapping.Reset();
+    mapping.UpdateMesh(100, update);
+    EXPECT_TRUE(update.clear && update.whole);
+}
+
 // The corrected map receives the objects in a different order.
 TEST(MappingStage, ObjectsKeepTheirNumbersInACorrectedMap) {
     LabelConfig config;
