@@ -13,21 +13,9 @@ namespace {
 
 class ViewerPicture : public testing_support::WindowTest {
   protected:
-    // Fraction of the 3D view's pixels for which the predicate holds.
-    template <class Predicate>
-    double Share(const ColourImage& picture, Predicate predicate) {
-        const ControlRect view = Find("view");
-        int all = 0, hits = 0;
-        for (int y = static_cast<int>(view.y) + 60; y < static_cast<int>(view.y + view.height); ++y)
-            for (int x = static_cast<int>(view.x); x < static_cast<int>(view.x + view.width);
-                 ++x, ++all)
-                hits += predicate(picture(x, y));
-        return static_cast<double>(hits) / all;
-    }
     static int Spread(const Rgb8& c) {
         return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b});
     }
-    static bool IsBackground(const Rgb8& c) { return std::max({c.r, c.g, c.b}) < 62; }
     double Difference(const ColourImage& a, const ColourImage& b) {
         double sum = 0;
         const ControlRect view = Find("view");
@@ -45,38 +33,6 @@ TEST_F(ViewerPicture, TheMeshGrowsFromNothing) {
     ASSERT_EQ(picture.width(), 1280);
     ASSERT_EQ(picture.height(), 720);
     EXPECT_GT(Share(picture, [](const Rgb8& c) { return !IsBackground(c); }), 0.2);
-}
-
-// Where the map was replaced, what was there stays until all of the new mesh is here.
-TEST_F(ViewerPicture, AReplacedMeshDoesNotVanishFirst) {
-    const auto share = [&] {
-        EXPECT_TRUE(Until([&] { return link_.meshes.empty(); }));
-        Rounds(3);
-        return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); });
-    };
-    Frames(3);
-    const double before = share();
-    ASSERT_GT(before, 0.2);
-    MeshUpdate part;
-    ASSERT_TRUE(system_->Step() && link_.meshes.TryPop(part));
-    part.clear = true;
-    part.whole = false;
-    part.blocks.resize(part.blocks.size() / 4);
-    link_.meshes.TryPush(std::move(part));
-    EXPECT_NEAR(share(), before, 0.01);
-    // Another one, before the first was whole.
-    link_.meshes.TryPush({.voxel_size_m = 0.04, .clear = true, .whole = false, .blocks = {}});
-    EXPECT_NEAR(share(), before, 0.01);
-    link_.meshes.TryPush({.voxel_size_m = 0.04, .clear = false, .whole = true, .blocks = {}});
-    EXPECT_LT(share(), 0.02);  // the path
-}
-
-TEST_F(ViewerPicture, AfterTheEndTheNewMeshIsShownAsFarAsItCame) {
-    Frames(3);
-    link_.meshes.TryPush({.voxel_size_m = 0.04, .clear = true, .whole = false, .blocks = {}});
-    link_.ended = true;
-    Rounds(3);
-    EXPECT_LT(Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); }), 0.02);
 }
 
 TEST_F(ViewerPicture, AScreenshotIsSavedAndToldOf) {

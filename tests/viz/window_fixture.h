@@ -62,6 +62,18 @@ class WindowTest : public DrivenWindow {
         Until([&] { return link_.meshes.empty() && link_.frames.empty(); });
         return system_->settings().empty() ? nullptr : &system_->settings().back();
     }
+    // Share of the pixels of the 3D view for which the predicate holds.
+    template <class Predicate>
+    double Share(const ColourImage& picture, Predicate predicate) {
+        const ControlRect view = Find("view");
+        int all = 0, hits = 0;
+        for (int y = static_cast<int>(view.y) + 60; y < static_cast<int>(view.y + view.height); ++y)
+            for (int x = static_cast<int>(view.x); x < static_cast<int>(view.x + view.width);
+                 ++x, ++all)
+                hits += predicate(picture(x, y));
+        return static_cast<double>(hits) / all;
+    }
+    static bool IsBackground(const Rgb8& c) { return std::max({c.r, c.g, c.b}) < 62; }
 
     TempFolder folder_;
     ViewerOptions first_options_;  // a test's own, completed by SetUp

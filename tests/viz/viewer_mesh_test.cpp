@@ -1,0 +1,42 @@
+// Tests of what the window shows when the map is replaced.
+#include "viz/window_fixture.h"
+
+namespace tessera {
+namespace {
+
+class ViewerMesh : public testing_support::WindowTest {};
+
+// Where the map was replaced, what was there stays until all of the new mesh is here.
+TEST_F(ViewerMesh, AReplacedMeshDoesNotVanishFirst) {
+    const auto share = [&] {
+        EXPECT_TRUE(Until([&] { return link_.meshes.empty(); }));
+        Rounds(3);
+        return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); });
+    };
+    Frames(3);
+    const double before = share();
+    ASSERT_GT(before, 0.2);
+    MeshUpdate part;
+    ASSERT_TRUE(system_->Step() && link_.meshes.TryPop(part));
+    part.clear = true;
+    part.whole = false;
+    part.blocks.resize(part.blocks.size() / 4);
+    link_.meshes.TryPush(std::move(part));
+    EXPECT_NEAR(share(), before, 0.01);
+    // Another one, before the first was whole.
+    link_.meshes.TryPush({.voxel_size_m = 0.04, .clear = true, .whole = false, .blocks = {}});
+    EXPECT_NEAR(share(), before, 0.01);
+    link_.meshes.TryPush({.voxel_size_m = 0.04, .clear = false, .whole = true, .blocks = {}});
+    EXPECT_LT(share(), 0.02);  // the path
+}
+
+TEST_F(ViewerMesh, AfterTheEndTheNewMeshIsShownAsFarAsItCame) {
+    Frames(3);
+    link_.meshes.TryPush({.voxel_size_m = 0.04, .clear = true, .whole = false, .blocks = {}});
+    link_.ended = true;
+    Rounds(3);
+    EXPECT_LT(Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); }), 0.02);
+}
+
+}  // namespace
+}  // namespace tessera
