@@ -64,15 +64,18 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
     frames_.StoreLatest();
     if (seeking_ && graph_.corrected())
         static_cast<void>(graph_.OptimiseAgain());  // else as it was
-    bool again = Calibrate(note);
-    if (const std::string left_out = graph_.KeepLargestPart(); !left_out.empty()) {
-        note += (note.empty() ? "" : "; ") + left_out;
-        again = true;
-    }
-    if (again) {
+    const bool calibrated = Calibrate(note);
+    if (calibrated) in_use = nullptr;
+    const std::string left_out = graph_.KeepLargestPart();
+    if (!left_out.empty()) note += (note.empty() ? "" : "; ") + left_out;
+    if (calibrated || !left_out.empty()) {
         corrector_.Discard();
-        in_use = nullptr;
+        if (in_use && !corrector_.labels() && corrector_.MayMove(*in_use))
+            corrector_.BeginParts(*in_use);
+        else
+            in_use = nullptr;
         if (corrector_.Begin(kAnyDifference_m)) last = MakeAll();
+        if (in_use) in_use = last->map.get();
     }
     if (!graph_.corrected()) return last;
     if (in_use && (graph_.PartsMove() || !corrector_.MayMove(*in_use))) in_use = nullptr;

@@ -54,14 +54,14 @@ bool MapCorrector::Begin(double tolerance_m, const BlockMap* in_use, MapWarp::Do
     return true;
 }
 
+void MapCorrector::BeginParts(const BlockMap& in_use) {
+    MovedParts moved = MoveParts(in_use, graph_, settings_.fusion.volume.box());
+    made_ = std::make_unique<MapRebuild>(settings_, std::move(moved.T_map_keyframe),
+                                         std::move(moved.map), std::move(moved.doubtful));
+}
+
 void MapCorrector::BeginMoved(const BlockMap& in_use, MapWarp::Doubtful doubtful) {
-    const WorldBox box = settings_.fusion.volume.box();
-    if (graph_.PartsMove()) {
-        MovedParts moved = MoveParts(in_use, graph_, box);
-        made_ = std::make_unique<MapRebuild>(settings_, std::move(moved.T_map_keyframe),
-                                             std::move(moved.map), std::move(moved.doubtful));
-        return;
-    }
+    if (graph_.PartsMove()) return BeginParts(in_use);
     // What frames show a voxel apart would be blurred.
     const double most_spread_m = settings_.map.voxel_size_m;
     std::vector<Eigen::Isometry3d> poses = graph_.Poses();
@@ -69,7 +69,7 @@ void MapCorrector::BeginMoved(const BlockMap& in_use, MapWarp::Doubtful doubtful
         MotionOfBlocks(in_use, graph_.keyframes(), poses, settings_.camera);
     for (const BlockCoord& c : doubtful_)
         motions[static_cast<std::size_t>(in_use.Find(c))].spread_m = BlockMotion::kDoubtful_m;
-    MapWarp warp(in_use, motions, box, most_spread_m, doubtful);
+    MapWarp warp(in_use, motions, settings_.fusion.volume.box(), most_spread_m, doubtful);
     made_ = std::make_unique<MapRebuild>(settings_, std::move(poses), std::move(warp));
 }
 

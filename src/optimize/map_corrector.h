@@ -56,6 +56,9 @@ class MapCorrector {
     // fused again; it stays as it is until the map is made.
     bool Begin(double tolerance_m, const BlockMap* in_use = nullptr,
                MapWarp::Doubtful doubtful = MapWarp::Doubtful::kLeftOut);
+    // Moves the parts of the map in use as the graph joins them, and removes those that are left
+    // out. Only if MayMove holds, and without labels.
+    void BeginParts(const BlockMap& in_use);
     // For each keyframe that is added to the graph. The map that is being made has it at the same
     // place relative to the one before as the graph.
     void AddKeyframe();

@@ -28,6 +28,7 @@ MapRebuild::MapRebuild(const FieldSettings& settings,
                        std::unique_ptr<BlockMap> made, std::vector<BlockCoord> doubtful)
     : MapRebuild(settings, std::move(T_world_keyframe), nullptr) {
     map_ = std::move(made);
+    made_ = true;
     doubtful_ = std::move(doubtful);
 }
 
@@ -54,7 +55,7 @@ Result<bool> MapRebuild::Step(FrameStore& store, int frames) {
         BeginFusion(warp_->Take());
         warp_.reset();
     }
-    if (copy_) return true;  // the map is whole
+    if (made_ || copy_) return true;  // the map is whole
     const std::vector<StoredFrame>& stored = store.frames();
     auto next = std::ranges::lower_bound(stored, next_ordinal_, {}, &StoredFrame::ordinal);
     for (int i = 0; i < frames && next != stored.end(); ++i, ++next) {

@@ -64,6 +64,7 @@ class MapRebuild {
     void AddToTheMoved();
 
     std::unique_ptr<BlockMap> map_;
+    bool made_ = false;               // given to the constructor
     std::unique_ptr<BlockMap> copy_;  // see Keep
     std::optional<MapWarp> warp_;     // moves the map in use; empty if it is moved
     // Then what is not fused again, while `map_` has only the blocks that are; else null.

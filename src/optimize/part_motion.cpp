@@ -1,5 +1,6 @@
 #include "optimize/part_motion.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -9,25 +10,46 @@
 
 namespace tessera {
 
+namespace {
+
+Eigen::Isometry3d PlaceOf(const BlockMap& map, BlockId id) {
+    const double block_m = kBlockSide * map.config().voxel_size_m;
+    const BlockCoord c = map.coord(id);
+    return Eigen::Isometry3d(Eigen::Translation3d(block_m * Eigen::Vector3d(c.x, c.y, c.z)));
+}
+
+// Removes the blocks of parts that are left out.
+void RemoveLeftOut(const ScanGraph& graph, BlockMap& map) {
+    std::vector<Eigen::Isometry3d> T_map_removed;  // a keyframe of each part
+    for (const Keyframe& keyframe : graph.keyframes().all())
+        if (graph.LeftOut(keyframe.id) &&
+            std::ranges::none_of(T_map_removed, [&](const Eigen::Isometry3d& T) {
+                return InOnePart(T, keyframe.T_map_camera);
+            }))
+            T_map_removed.push_back(keyframe.T_map_camera);
+    for (BlockId id = 1; id < map.size(); ++id)
+        if (!map.IsFree(id) && std::ranges::any_of(T_map_removed, [&](const Eigen::Isometry3d& T) {
+                return InOnePart(T, PlaceOf(map, id));
+            }))
+            map.Release(id);
+}
+
+}  // namespace
+
 MovedParts MoveParts(const BlockMap& in_use, const ScanGraph& graph, const WorldBox& box) {
-    const double block_m = kBlockSide * in_use.config().voxel_size_m;
-    const auto in_part = [&](BlockId id, const Eigen::Isometry3d& T_map_camera) {
-        const BlockCoord c = in_use.coord(id);
-        return InOnePart(
-            Eigen::Isometry3d(Eigen::Translation3d(block_m * Eigen::Vector3d(c.x, c.y, c.z))),
-            T_map_camera);
-    };
     const std::vector<Eigen::Isometry3d> to = graph.Poses();
     MovedParts moved{CopyLayers(in_use, BlockMap::Layers::kAll), graph.MapPoses(), {}};
+    RemoveLeftOut(graph, *moved.map);
     for (std::size_t k = 0; k < to.size(); ++k) {
-        if (InOnePart(moved.T_map_keyframe[k], to[k])) continue;
+        if (graph.LeftOut(static_cast<int>(k)) || InOnePart(moved.T_map_keyframe[k], to[k]))
+            continue;
         const Eigen::Isometry3d T_old = moved.T_map_keyframe[k],
                                 T_new_old = Normalised(to[k] * T_old.inverse());
         for (Eigen::Isometry3d& T : moved.T_map_keyframe)
             if (InOnePart(T, T_old)) T = Normalised(T_new_old * T);
         std::vector<BlockId> blocks;
         for (BlockId id = 1; id < in_use.size(); ++id) {
-            if (in_use.IsFree(id) || !in_part(id, T_old)) continue;
+            if (in_use.IsFree(id) || !InOnePart(PlaceOf(in_use, id), T_old)) continue;
             blocks.push_back(id);
             moved.map->Release(id);
         }
@@ -37,6 +59,8 @@ MovedParts MoveParts(const BlockMap& in_use, const ScanGraph& graph, const World
         for (const BlockId id : mover.moved())
             if (!added.contains(id)) moved.doubtful.push_back(moved.map->coord(id));
     }
+    for (std::size_t k = 0; k < to.size(); ++k)
+        if (graph.LeftOut(static_cast<int>(k))) moved.T_map_keyframe[k] = to[k];
     for (BlockId id = 1; id < moved.map->size(); ++id) moved.map->MarkChanged(id, 0);
     return moved;
 }

@@ -1,4 +1,5 @@
-// Moves joined parts of a map to where the pose graph has them, each as a whole.
+// Moves joined parts of a map to where the pose graph has them, each as a whole, and removes those
+// that are left out.
 #pragma once
 
 #include <memory>

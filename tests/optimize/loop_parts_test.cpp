@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -54,9 +56,10 @@ double FarthestOff(const std::vector<StampedPose>& path, const std::vector<Frame
     return farthest_m;
 }
 
-// How far the map's surface is, on average, from where a frame shows it, if its camera is at the
-// true pose. Infinite if less than nine tenths are known.
-double MeanOff_m(const Frame& frame, const Walker& walker) {
+// How far the map's surface is, on average, from where a frame shows it from this pose. Infinite if
+// less than nine tenths are known.
+double MeanOff_m(const Frame& frame, const Eigen::Isometry3d& T_world_camera,
+                 const Walker& walker) {
     const BlockMap& map = *walker.map;
     const PinholeCamera camera = testing_support::RoomCamera();
     FieldSampler<BlockMapView> sampler(map.view(), {0, 0, 0});
@@ -68,7 +71,7 @@ double MeanOff_m(const Frame& frame, const Walker& walker) {
             if (z <= 0 || z > 3) continue;
             ++points;
             const Eigen::Vector3f p =
-                (*frame.T_world_camera * camera.Unproject(x, y, z) / map.config().voxel_size_m)
+                (T_world_camera * camera.Unproject(x, y, z) / map.config().voxel_size_m)
                     .cast<float>();
             const FieldSample sample = sampler.Sample<false>(sampler.Locate(p.x(), p.y(), p.z()));
             if (!sample.has_distance) continue;
@@ -76,6 +79,30 @@ double MeanOff_m(const Frame& frame, const Walker& walker) {
             sum_m += std::abs(sample.distance.value);
         }
     return known >= 0.9 * points ? sum_m / known : std::numeric_limits<double>::infinity();
+}
+
+// From its true pose.
+double MeanOff_m(const Frame& frame, const Walker& walker) {
+    return MeanOff_m(frame, *frame.T_world_camera, walker);
+}
+
+// The fields of all blocks by their coordinates, seen from that many blocks along x.
+using Fields = std::map<std::array<int, 3>, std::vector<FieldWord>>;
+Fields FieldsFrom(int blocks, const BlockMap& map) {
+    Fields fields;
+    for (BlockId id = 1; id < map.size(); ++id) {
+        const BlockCoord c = map.coord(id);
+        if (map.IsFree(id)) continue;
+        fields[{c.x - blocks, c.y, c.z}].assign(map.field(id), map.field(id) + kBlockVoxels);
+    }
+    return fields;
+}
+
+bool AreAmong(const Fields& some, const Fields& all) {
+    return std::ranges::all_of(some, [&](const auto& block) {
+        const auto found = all.find(block.first);
+        return found != all.end() && found->second == block.second;
+    });
 }
 
 std::vector<Frame> Both(std::vector<Frame> frames, const std::vector<Frame>& more) {
@@ -122,7 +149,7 @@ TEST_F(LoopParts, AreJoinedWhereTheCameraSeesAPlaceOfTheOther) {
 }
 
 // The path and the map are those of the longer part, in the world of its first camera.
-TEST_F(LoopParts, AShorterPartThatIsNotJoinedIsLeftOut) {
+void ExpectTheShorterPartIsLeftOut(bool moves) {
     for (const bool second_is_longer : {false, true}) {
         const std::vector<Frame> first = RoomWalk(0, 14, 3),
                                  second = RoomWalk(360, second_is_longer ? 20 : 12, 3);
@@ -130,7 +157,12 @@ TEST_F(LoopParts, AShorterPartThatIsNotJoinedIsLeftOut) {
         Walk(walker, first, 0);
         Walk(walker, second, 1);
         std::string note;
-        walker.Take(walker.closer.Finish(note));
+        const double block_m = kBlockSide * walker.map->config().voxel_size_m;
+        const int apart = static_cast<int>(std::lround(kPartsApart_m / block_m));
+        const Fields before = FieldsFrom(second_is_longer ? apart : 0, *walker.map);
+        walker.Take(walker.closer.Finish(note, moves ? walker.map.get() : nullptr));
+        // Whole blocks are moved as they are. Frames that are fused again give other voxels.
+        EXPECT_EQ(AreAmong(FieldsFrom(0, *walker.map), before), moves);
         EXPECT_EQ(note.find(second_is_longer ? "14 frames are left out" : "12 frames are left out"),
                   0u)
             << note;
@@ -141,8 +173,13 @@ TEST_F(LoopParts, AShorterPartThatIsNotJoinedIsLeftOut) {
         EXPECT_LT(FarthestOff(path, kept), 1e-6);
         EXPECT_GT(walker.map->size(), 100);
         EXPECT_LT(FarthestFrom(Eigen::Vector3d::Zero(), *walker.map), 10);
+        EXPECT_LT(MeanOff_m(kept[10], path[10].T_world_camera, walker), 0.02);
     }
 }
+
+TEST_F(LoopParts, AShorterPartThatIsNotJoinedIsLeftOut) { ExpectTheShorterPartIsLeftOut(false); }
+
+TEST_F(LoopParts, AndRemovedFromTheMapInUse) { ExpectTheShorterPartIsLeftOut(true); }
 
 TEST_F(LoopParts, AMapMadeOutsideARunHasTheLargestOnly) {
     Walker walker(LoopConfig{});
