@@ -9,6 +9,9 @@ void UsualFit::Add(const TrackResult& track) {
     known_ = true;
     inliers_ += share * (track.inlier_fraction - inliers_);
     distance_rms_m_ += share * (track.distance_rms_m - distance_rms_m_);
+    // A frame that leaves a motion open may be far from its prediction because its pose is wrong:
+    // it is no first evidence against predictions.
+    if (track.degenerate && !innovation_share_) return;
     const double before = innovation_share_.value_or(track.innovation_share);
     innovation_share_ = before + share * (track.innovation_share - before);
 }

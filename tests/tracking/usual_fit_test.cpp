@@ -41,6 +41,24 @@ TEST(UsualFit, TheFirstFramesMustFitToo) {
 }
 
 // Whether the next pose can be predicted is learnt from how far poses were from their predictions.
+// Otherwise a wrong pose of the second frame would speak against all right ones that follow.
+TEST(UsualFit, AFrameThatLeavesAMotionOpenIsNoFirstEvidenceAgainstPredictions) {
+    UsualFit usual(0.1, 0.35);
+    TrackResult open = Fit(0.95), held = open;
+    open.innovation_share = held.innovation_share = 0.6;
+    open.degenerate = true;
+    usual.Add(open);
+    EXPECT_TRUE(usual.Predicted(0.1));
+    usual.Add(held);
+    EXPECT_FALSE(usual.Predicted(0.1));
+    usual.ForgetPredictions();
+    held.innovation_share = 0.45;
+    usual.Add(held);
+    EXPECT_TRUE(usual.Predicted(0.1));
+    for (int i = 0; i < 10; ++i) usual.Add(open);  // beside others it counts
+    EXPECT_FALSE(usual.Predicted(0.1));
+}
+
 TEST(UsualFit, KnowsWhetherPosesArePredicted) {
     UsualFit usual(0.1, 0.35);
     EXPECT_TRUE(usual.Predicted(0.24));  // at first a matter of time only
