@@ -11,11 +11,6 @@ CoverageLevels CoverageLevels::Of(double max_weight) {
     return {step(std::min(2.0, max_weight / 10)), step(std::min(10.0, max_weight / 2))};
 }
 
-void Coverage::Clear() {
-    blocks_.clear();
-    total_ = {};
-}
-
 void Coverage::Take(std::span<const GeometryBlock> blocks) {
     for (const GeometryBlock& block : blocks) {
         Counts now;

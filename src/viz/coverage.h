@@ -29,7 +29,6 @@ class Coverage {
   public:
     explicit Coverage(const CoverageLevels& levels) : levels_(levels) {}
 
-    void Clear();
     // Replaces these blocks' counts.
     void Take(std::span<const GeometryBlock> blocks);
     // Of all vertices, 0 without any.

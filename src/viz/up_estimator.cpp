@@ -28,11 +28,6 @@ UpEstimator::UpEstimator(const Eigen::Vector3d& roughly_up)
     north_ = rough_.cross(east_);
 }
 
-void UpEstimator::Clear() {
-    bins_.fill(Bin{});
-    count_ = 0;
-}
-
 void UpEstimator::Add(const BlockGeometry& geometry) {
     // A few samples per block are enough to find a direction.
     for (std::size_t i = 0; i < geometry.vertices.size(); i += 8)

@@ -16,7 +16,6 @@ class UpEstimator {
     // Searches within 53 degrees of `roughly_up` (any non-zero length).
     explicit UpEstimator(const Eigen::Vector3d& roughly_up);
 
-    void Clear();
     void Add(const BlockGeometry& geometry);
     void Add(const Eigen::Vector3f& normal_world);
     // Unit vector in the world frame; empty while too few surfaces agree.

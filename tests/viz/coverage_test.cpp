@@ -37,8 +37,6 @@ TEST(Coverage, CountsEachBlockOnceHoweverOftenItIsMeshed) {
     EXPECT_DOUBLE_EQ(coverage.well_share(), 7.0 / 8);
     coverage.Take(std::vector{BlockOf(7, {})});  // its surface is gone
     EXPECT_DOUBLE_EQ(coverage.well_share(), 1);
-    coverage.Clear();
-    EXPECT_EQ(coverage.well_share(), 0);
 }
 
 }  // namespace

@@ -28,8 +28,6 @@ TEST(UpEstimator, FindsTheFloorBesideTheWalls) {
     AddMany(estimator, up, 1000);
     ASSERT_TRUE(estimator.Up());
     EXPECT_LT(std::acos(estimator.Up()->dot(up)), 0.01);
-    estimator.Clear();
-    EXPECT_FALSE(estimator.Up());
 }
 
 TEST(UpEstimator, ReadsPackedNormals) {
