@@ -10,6 +10,14 @@ namespace {
 
 constexpr double kAnyDifference_m = -1;  // a tolerance
 
+// Makes one correction of two: the map is the later one's, the camera moves as in both.
+void Append(std::optional<LoopCloser::Correction> next,
+            std::optional<LoopCloser::Correction>& last) {
+    if (!next) return;
+    if (last) next->T_new_old = Normalised(next->T_new_old * last->T_new_old);
+    last = std::move(next);
+}
+
 }  // namespace
 
 std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
@@ -87,7 +95,7 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
         corrector_.DiscardOutdated(tolerance_m);
     while (corrector_.Begin(corrector_.doubtful() ? kAnyDifference_m : tolerance_m,
                             std::exchange(in_use, nullptr)))
-        if (auto next = MakeAll()) last = std::move(next);
+        Append(MakeAll(), last);
     return last;
 }
 

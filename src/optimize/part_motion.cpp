@@ -9,14 +9,7 @@
 #include "optimize/block_mover.h"
 
 namespace tessera {
-
 namespace {
-
-Eigen::Isometry3d PlaceOf(const BlockMap& map, BlockId id) {
-    const double block_m = kBlockSide * map.config().voxel_size_m;
-    const BlockCoord c = map.coord(id);
-    return Eigen::Isometry3d(Eigen::Translation3d(block_m * Eigen::Vector3d(c.x, c.y, c.z)));
-}
 
 // Removes the blocks of parts that are left out.
 void RemoveLeftOut(const ScanGraph& graph, BlockMap& map) {

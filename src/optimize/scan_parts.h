@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mapping/block_map.h"
 #include "optimize/keyframe.h"
 #include "optimize/pose_graph.h"
 
@@ -28,6 +29,13 @@ inline Eigen::Isometry3d PartStart(int part) {
 
 inline bool InOnePart(const Eigen::Isometry3d& T_map_a, const Eigen::Isometry3d& T_map_b) {
     return (T_map_a.translation() - T_map_b.translation()).norm() < kPartsApart_m / 2;
+}
+
+// Where a block is in the map.
+inline Eigen::Isometry3d PlaceOf(const BlockMap& map, BlockId id) {
+    const double block_m = kBlockSide * map.config().voxel_size_m;
+    const BlockCoord c = map.coord(id);
+    return Eigen::Isometry3d(Eigen::Translation3d(block_m * Eigen::Vector3d(c.x, c.y, c.z)));
 }
 
 // Keyframes that edges join, directly or by way of others, are one part; and those that lie beside

@@ -157,6 +157,42 @@ Result<ScanMeta> ReadMeta(ScanFile& file) {
 
 }  // namespace
 
+std::optional<Eigen::Isometry3d> ScanContent::PoseOf(const PathRecord& record) const {
+    if (!record.tracked()) return std::nullopt;
+    const Eigen::Isometry3d& T = record.T_reference_camera;
+    if (record.keyframe < 0) return Shows(T) ? std::optional(T) : std::nullopt;
+    if (LeftOut(record.keyframe)) return std::nullopt;
+    return Normalised(keyframes[static_cast<std::size_t>(record.keyframe)].T_world_camera * T);
+}
+
+std::vector<StampedPose> ScanContent::Path() const {
+    std::vector<StampedPose> poses;
+    for (const PathRecord& record : path)
+        if (const std::optional<Eigen::Isometry3d> T = PoseOf(record))
+            poses.push_back({record.stamp_s, *T});
+    return poses;
+}
+
+std::optional<StampedPose> ScanContent::LastPose() const {
+    for (auto record = path.rbegin(); record != path.rend(); ++record) {
+        if (!record->tracked()) continue;
+        const Eigen::Isometry3d& T = record->T_reference_camera;
+        if (record->keyframe < 0) return StampedPose{record->stamp_s, T};
+        return StampedPose{
+            record->stamp_s,
+            Normalised(keyframes[static_cast<std::size_t>(record->keyframe)].T_map_camera * T)};
+    }
+    return std::nullopt;
+}
+
+std::vector<StampedPose> ScanContent::Truth() const {
+    std::vector<StampedPose> poses;
+    for (const PathRecord& record : path)
+        if (record.T_world_camera_truth)
+            poses.push_back({record.stamp_s, *record.T_world_camera_truth});
+    return poses;
+}
+
 Status ReadScanFrames(ScanFile& file, const std::function<Status(FrameRecord&&)>& take) {
     return file.Read(ScanTable::kFrames, [&](const ScanRow& row) {
         FrameRecord record;

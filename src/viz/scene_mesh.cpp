@@ -25,8 +25,10 @@ bool SceneMesh::Take(ViewerLink& link, std::size_t most_bytes) {
         any = true;
     }
     // After a run nothing more may come.
-    if (link.ended && link.meshes.empty() && pending_done_ == pending_.blocks.size())
+    if (before_ && link.ended && link.meshes.empty() && pending_done_ == pending_.blocks.size()) {
         before_.reset();
+        any = true;
+    }
     return any;
 }
 

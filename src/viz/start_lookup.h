@@ -21,7 +21,7 @@ class StartLookup {
 
     // Asks what the path is, unless that is known or being found out already.
     void Examine(const std::string& path);
-    // What the last path is; empty while it is examined, or if it is another than this.
+    // What the path is; null unless it is the last one examined, and the answer is there.
     const PathFinding* FindingOf(const std::string& path) const;
 
     void ListCameras();

@@ -5,86 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "mapping/field_sampler.h"
+#include "core/se3.h"
 #include "optimize/loop_closer.h"
-#include "optimize/room_walk.h"
+#include "optimize/part_walk.h"
 
 namespace tessera {
 namespace {
 
-using testing_support::RoomWalk;
-using testing_support::Walker;
-
-// A part of the scan: the camera's path is right, and begins at this place of the map.
-void Walk(Walker& walker, const std::vector<Frame>& frames, int part) {
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        Eigen::Isometry3d T_last_camera = Eigen::Isometry3d::Identity();
-        if (i > 0)
-            T_last_camera = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera;
-        else
-            walker.T_map_camera = PartStart(part);
-        walker.Go(frames[i], T_last_camera);
-    }
-}
-
-double FarthestFrom(const Eigen::Vector3d& p, const BlockMap& map) {
-    double farthest_m = 0;
-    for (BlockId id = 1; id < map.size(); ++id) {
-        if (map.IsFree(id)) continue;
-        const BlockCoord& c = map.coord(id);
-        const double side_m = kBlockSide * map.config().voxel_size_m;
-        farthest_m = std::max(farthest_m, (side_m * Eigen::Vector3d(c.x, c.y, c.z) - p).norm());
-    }
-    return farthest_m;
-}
-
-// Largest distance from the true path of these frames, both begun at the first pose.
-double FarthestOff(const std::vector<StampedPose>& path, const std::vector<Frame>& frames) {
-    double farthest_m = 0;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        const Eigen::Isometry3d T_first = path[0].T_world_camera.inverse() * path[i].T_world_camera,
-                                T_first_true =
-                                    frames[0].T_world_camera->inverse() * *frames[i].T_world_camera;
-        farthest_m =
-            std::max(farthest_m, (T_first.translation() - T_first_true.translation()).norm());
-    }
-    return farthest_m;
-}
-
-// How far the map's surface is, on average, from where a frame shows it from this pose. Infinite if
-// less than nine tenths are known.
-double MeanOff_m(const Frame& frame, const Eigen::Isometry3d& T_world_camera,
-                 const Walker& walker) {
-    const BlockMap& map = *walker.map;
-    const PinholeCamera camera = testing_support::RoomCamera();
-    FieldSampler<BlockMapView> sampler(map.view(), {0, 0, 0});
-    double sum_m = 0;
-    int points = 0, known = 0;
-    for (int y = 2; y < camera.height; y += 7)
-        for (int x = 2; x < camera.width; x += 7) {
-            const float z = frame.depth_m(x, y);
-            if (z <= 0 || z > 3) continue;
-            ++points;
-            const Eigen::Vector3f p =
-                (T_world_camera * camera.Unproject(x, y, z) / map.config().voxel_size_m)
-                    .cast<float>();
-            const FieldSample sample = sampler.Sample<false>(sampler.Locate(p.x(), p.y(), p.z()));
-            if (!sample.has_distance) continue;
-            ++known;
-            sum_m += std::abs(sample.distance.value);
-        }
-    return known >= 0.9 * points ? sum_m / known : std::numeric_limits<double>::infinity();
-}
-
-// From its true pose.
-double MeanOff_m(const Frame& frame, const Walker& walker) {
-    return MeanOff_m(frame, *frame.T_world_camera, walker);
-}
+using namespace testing_support;
 
 // The fields of all blocks by their coordinates, seen from that many blocks along x.
 using Fields = std::map<std::array<int, 3>, std::vector<FieldWord>>;
@@ -180,6 +112,35 @@ void ExpectTheShorterPartIsLeftOut(bool moves) {
 TEST_F(LoopParts, AShorterPartThatIsNotJoinedIsLeftOut) { ExpectTheShorterPartIsLeftOut(false); }
 
 TEST_F(LoopParts, AndRemovedFromTheMapInUse) { ExpectTheShorterPartIsLeftOut(true); }
+
+// A loop that was just closed when the run ends, in the part that is kept.
+TEST_F(LoopParts, WhatIsKeptIsThenMovedToWhereItsGraphIs) {
+    Walker walker(LoopConfig{});
+    Walk(walker, RoomWalk(360, 8, 3), 0);  // so short that no camera is found there
+    const std::vector<Frame> round = RoomWalk(0, 120, 6);
+    const auto drifted = [&](std::size_t i) {
+        const double share = std::clamp((static_cast<double>(i) - 60) / 10, 0.0, 1.0);
+        const Vector6d drift = (Vector6d() << 0, 0.1, 0, 0.15, 0, 0.2).finished() * share;
+        return Normalised(Se3Exp(drift) * *round[i].T_world_camera);
+    };
+    std::size_t count = 0;
+    for (; count < round.size() && walker.all_news.empty(); ++count) {
+        if (count == 0) walker.T_map_camera = PartStart(1);
+        walker.Go(round[count], count == 0 ? Eigen::Isometry3d::Identity()
+                                           : drifted(count - 1).inverse() * drifted(count));
+    }
+    ASSERT_LT(count, round.size());
+    ASSERT_EQ(walker.corrections, 0);
+    std::string note;
+    walker.Take(walker.closer.Finish(note, walker.map.get()));
+    EXPECT_EQ(note.find("8 frames are left out"), 0u) << note;
+    const std::vector<StampedPose> path = walker.closer.Path();
+    ASSERT_EQ(path.size(), count);
+    EXPECT_LT(FarthestFrom(Eigen::Vector3d::Zero(), *walker.map), 10);
+    EXPECT_LT(MeanOff_m(round[count - 1], path.back().T_world_camera, walker), 0.02);
+    const Eigen::Isometry3d off = path.back().T_world_camera.inverse() * walker.T_map_camera;
+    EXPECT_LT(off.translation().norm(), 0.03);
+}
 
 TEST_F(LoopParts, AMapMadeOutsideARunHasTheLargestOnly) {
     Walker walker(LoopConfig{});
