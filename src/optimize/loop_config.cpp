@@ -44,8 +44,7 @@ void LoopConfig::Describe(ConfigParameters& p) {
           "stored frames fused into the corrected map after each new frame");
     p.Add("parts", parts,
           "where a lost camera is found nowhere for two seconds, begin a new part of the scan, and "
-          "join it with the others when a place is seen again; not with mapping.memory_limit_mb or "
-          "a bounded mapping.volume");
+          "join it with the others when a place is seen again; not with a bounded mapping.volume");
 }
 
 }  // namespace tessera

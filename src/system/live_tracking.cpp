@@ -73,9 +73,11 @@ void LiveTracking::Track(NewFrame& item) {
     task.labels = std::exchange(state_->labels, std::nullopt);
     if (std::exchange(state_->detector_changed, false)) task.detector = state_->detector;
     task.T_found_camera = TakeRelocalisation(frame.stamp_s);
+    life.SetSeeking(state_->seeking && state_->looked_for && !task.T_found_camera);
     life.Begin(frame);
     life.Track(frame, MapToTrackIn(), *task.tracked);
     CheckIfLost(*task.tracked);
+    state_->looked_for &= !task.tracked->report.tracked();
     life.End(*task.tracked);
     task.tracked->tracking_state.clear();
     if (links_.saving.load()) life.SaveState(*task.tracked);
@@ -105,7 +107,6 @@ void LiveTracking::TakeSettings() {
     state_->detector_changed |= settings.detector != state_->detector;
     state_->detector = settings.detector;
     state_->seeking = settings.loops.value_or(true);
-    state_->life.SetSeeking(state_->seeking);
     if (loops_ != nullptr) loops_->SetSeeking(state_->seeking);
 }
 
@@ -151,6 +152,7 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
         }
         return std::nullopt;
     }
+    state_->looked_for = true;
     if (!answer.T_world_camera) return std::nullopt;
     if (!state_->lost.lost()) {
         if (!state_->T_doubted) return std::nullopt;

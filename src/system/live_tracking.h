@@ -45,6 +45,9 @@ class LiveTracking {
         PlaceCheck place;
         bool seeking = true;  // loops are switched on
         bool asked = false;   // a relocalisation question is pending
+        // An answer has come since the camera was last tracked. Until then no part begins, however
+        // long that takes.
+        bool looked_for = false;
         // Where a camera that is tracked poorly was thought to be when it was asked for.
         std::optional<Eigen::Isometry3d> T_doubted;
         std::optional<LabelSettings> labels;  // new ones for mapping

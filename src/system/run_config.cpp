@@ -67,8 +67,8 @@ void RunConfig::Describe(ConfigParameters& p) {
 LoopConfig RunConfig::EffectiveLoops() const {
     LoopConfig effective = loops;
     effective.average_frames = scan.frames != ScanConfig::Frames::kAll;
-    // The pager knows the surroundings of one place, and the volume is of one part.
-    effective.parts = loops.parts && !pipeline.paging.enabled() && !pipeline.fusion.volume.bounded;
+    // The volume is of one part.
+    effective.parts = loops.parts && !pipeline.fusion.volume.bounded;
     return effective;
 }
 

@@ -18,6 +18,12 @@ class FrameList : public FrameSource {
                 first_stamp_s + static_cast<double>(i) / 30;
         }
     }
+    // From this frame on, they are a second apart.
+    void SlowDown(std::size_t from) {
+        for (std::size_t i = from; i < frames_.size(); ++i)
+            frames_[i].stamp_s = frames_[i].colour_stamp_s =
+                frames_[from - 1].stamp_s + static_cast<double>(i - from + 1);
+    }
     const SourceInfo& info() const override { return info_; }
     ReadResult Read(Frame& frame) override {
         if (next_ == frames_.size()) return {ReadStatus::kEnd, {}};
