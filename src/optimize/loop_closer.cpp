@@ -73,9 +73,8 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     // keyframe starts there, so that the frames on both sides can move apart. If the map is known
     // to be like this, the keyframe is linked at the pose where the camera was expected.
     const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(T_map_camera);
-    const bool jumped = expected && !relocalised_at_;
-    const bool keyframe =
-        fused && (relocalised_at_ || jumped || keyframes.Wanted(prepared, T_map_camera));
+    const bool jumped = expected && !link_;
+    const bool keyframe = fused && (link_ || jumped || keyframes.Wanted(prepared, T_map_camera));
     if (keyframe)
         AddKeyframe(frame, prepared, track, view.motion,
                     jumped && outdated() ? *expected : T_map_camera, jumped || outdated());
@@ -114,15 +113,14 @@ void LoopCloser::AddKeyframe(const Frame& frame, const PreparedFrame& prepared,
     } else {
         fresh.T_world_camera = fresh.T_map_camera;
     }
-    relocalised_at_.reset();
+    link_.reset();
+    seen_at_.reset();
     swapped_ = false;
 }
 
 // The keyframe that a new one is linked to. None if it begins a part.
 std::optional<int> LoopCloser::LinkedTo(const Eigen::Isometry3d& T_map_camera) const {
-    if (relocalised_at_ &&
-        InOnePart(graph_.keyframes()[*relocalised_at_].T_map_camera, T_map_camera))
-        return relocalised_at_;
+    if (link_ && InOnePart(graph_.keyframes()[*link_].T_map_camera, T_map_camera)) return link_;
     return graph_.NewestInPartOf(T_map_camera);
 }
 
@@ -132,11 +130,11 @@ void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera, boo
     graph_.AddPassage(stamp_s, T_map_camera, fused);
 }
 
-std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(
+std::optional<FoundCamera> LoopCloser::Relocalise(
     const PreparedFrame& frame, std::string& note,
     const std::optional<Eigen::Isometry3d>& T_map_expected) {
-    relocalised_at_.reset();
-    Keyframes& keyframes = graph_.keyframes();
+    seen_at_.reset();
+    const Keyframes& keyframes = graph_.keyframes();
     const Features features = ExtractFeatures(frame, settings_.camera, config_.max_features);
     const DenseView dense =
         MakeDenseView(MakeReducedView(frame, settings_.camera, {}), settings_.camera);
@@ -151,12 +149,16 @@ std::optional<Eigen::Isometry3d> LoopCloser::Relocalise(
         *std::ranges::max_element(places, {}, [this](const PlaceFinder::Place& place) {
             return graph_.KeyframesInPartOf(place.T_map_camera);
         });
-    relocalised_at_ = best.keyframe;
+    seen_at_ = best.keyframe;
     note = fmt::format("relocalised at frame {}", keyframes[best.keyframe].frame_index);
     if (std::string joined = joiner_.JoinAt(places); !joined.empty()) note += "; " + joined;
-    keyframes.Jump();
+    return FoundCamera{Normalised(best.T_map_camera), best.keyframe};
+}
+
+void LoopCloser::LinkNextTo(int keyframe) {
+    link_ = keyframe;
+    graph_.keyframes().Jump();
     jumps_.Reset();
-    return Normalised(best.T_map_camera);
 }
 
 std::string LoopCloser::TakeError() {

@@ -62,12 +62,16 @@ class LoopCloser {
     void SetSeeking(bool on) { seeking_ = on; }
     // For a tracked frame of which only the pose is kept.
     void Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused);
-    // Returns T_map_camera for a frame of a lost camera. Empty if the place is unknown or
-    // ambiguous. `note`: message for the user. `T_map_expected`: looks only in its part of the
-    // scan.
-    std::optional<Eigen::Isometry3d> Relocalise(
+    // Where the camera of this frame is. Empty if the place is unknown or ambiguous. A view that
+    // parts of the scan have in common may join them. `note`: message for the user.
+    // `T_map_expected`: looks only in its part of the scan.
+    std::optional<FoundCamera> Relocalise(
         const PreparedFrame& frame, std::string& note,
         const std::optional<Eigen::Isometry3d>& T_map_expected = std::nullopt);
+    // Call before Add or Pass of the first frame that was tracked where Relocalise found the
+    // camera. The next keyframe is linked to the one that was found: nothing is known of the motion
+    // since the last.
+    void LinkNextTo(int keyframe);
 
     // Works on the corrected map: fuses at most this many stored frames into it.
     std::optional<Correction> Step(int frames);
@@ -127,7 +131,8 @@ class LoopCloser {
     PartJoiner joiner_;
     MapCorrector corrector_;
     JumpDetector jumps_;
-    std::optional<int> relocalised_at_;  // keyframe to which the next one is linked
+    std::optional<int> link_;     // keyframe to which the next one is linked; else to the newest
+    std::optional<int> seen_at_;  // where a lost camera was seen last, if after the last keyframe
     std::optional<CalibrationReport> calibration_;
     bool seeking_ = true;
     bool swapped_ = false;  // the map was replaced after the last keyframe

@@ -33,7 +33,7 @@ std::optional<LoopCloser::Correction> LoopCloser::StepCorrection(int frames) {
     if (!made) return std::nullopt;
     const std::vector<Eigen::Isometry3d>& T_new_keyframe = made->T_world_keyframe();
     Keyframes& keyframes = graph_.keyframes();
-    const int here = relocalised_at_.value_or(keyframes.last().id);
+    const int here = seen_at_.value_or(keyframes.last().id);
     Correction correction;
     correction.map = made->TakeMap();
     correction.labels = made->TakeLabels();

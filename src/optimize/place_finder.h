@@ -13,6 +13,12 @@
 
 namespace tessera {
 
+// Where a lost camera is.
+struct FoundCamera {
+    Eigen::Isometry3d T_map_camera = Eigen::Isometry3d::Identity();
+    int keyframe = 0;  // which shows the place
+};
+
 // Owner thread only.
 class PlaceFinder {
   public:

@@ -36,12 +36,12 @@ std::vector<CommonPlace> FindCommonPlaces(LoopCloser& a, std::span<const StoredF
             !loader.LoadPrepared(stored, settings.camera, settings.preparation, frame, prepared)
                  .ok())
             continue;
-        const auto T_map_camera = a.Relocalise(prepared, ignored);
-        if (!T_map_camera) continue;
-        const int nearest = NearestKeyframe(a.keyframes(), *T_map_camera);
+        const std::optional<FoundCamera> found = a.Relocalise(prepared, ignored);
+        if (!found) continue;
+        const int nearest = NearestKeyframe(a.keyframes(), found->T_map_camera);
         const Keyframe& in_a = a.keyframes()[nearest];
         const Eigen::Isometry3d T_in_a_in_b =
-            Normalised(in_a.T_map_camera.inverse() * *T_map_camera);
+            Normalised(in_a.T_map_camera.inverse() * found->T_map_camera);
         places.push_back(
             {nearest, stored.keyframe, T_in_a_in_b, Normalised(in_a.T_world_camera * T_in_a_in_b)});
     }

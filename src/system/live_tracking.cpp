@@ -58,6 +58,9 @@ void LiveTracking::Reset() {
     state_->field->Clear();
     state_->lost = LostCamera(settings_.config.loops, settings_.config.pipeline.motion.max_gap_s);
     state_->place = PlaceCheck(settings_.camera);
+    state_->T_doubted.reset();
+    state_->found_at.reset();
+    state_->looked_for = false;
 }
 
 // ---- The life of a frame.
@@ -77,7 +80,7 @@ void LiveTracking::Track(NewFrame& item) {
     life.Begin(frame);
     life.Track(frame, MapToTrackIn(), *task.tracked);
     CheckIfLost(*task.tracked);
-    state_->looked_for &= !task.tracked->report.tracked();
+    TellWhereFound(*task.tracked);
     life.End(*task.tracked);
     task.tracked->tracking_state.clear();
     if (links_.saving.load()) life.SaveState(*task.tracked);
@@ -144,28 +147,38 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
     state_->asked = false;
     if (answer.map != state_->version) return std::nullopt;
     if (answer.check) {
-        if (!state_->place.Answer(answer.T_world_camera)) {
+        if (!state_->place.Answer(answer.found)) {
             state_->lost.Lose();
             links_.notices.Tell(kPlaceRefuted);
         } else if (!state_->place.open()) {
+            state_->found_at = answer.found->keyframe;
             links_.notices.Tell(kPlaceConfirmed);
         }
         return std::nullopt;
     }
     state_->looked_for = true;
-    if (!answer.T_world_camera) return std::nullopt;
+    if (!answer.found) return std::nullopt;
+    const Eigen::Isometry3d& T_found_camera = answer.found->T_map_camera;
     if (!state_->lost.lost()) {
         if (!state_->T_doubted) return std::nullopt;
-        if (SamePlace(*state_->T_doubted, *answer.T_world_camera)) {
+        if (SamePlace(*state_->T_doubted, T_found_camera)) {
             state_->lost.Confirm();
             return std::nullopt;
         }
         state_->lost.Doubt();
     }
     links_.notices.Tell(answer.note);
-    state_->life.stage().Relocate({answer.stamp_s, *answer.T_world_camera});
+    state_->life.stage().Relocate({answer.stamp_s, T_found_camera});
     state_->lost.Seen(stamp_s);
-    return answer.T_world_camera;
+    state_->found_at = answer.found->keyframe;
+    return T_found_camera;
+}
+
+void LiveTracking::TellWhereFound(TrackedFrame& tracked) {
+    tracked.found_at.reset();
+    if (!tracked.report.tracked()) return;
+    tracked.found_at = std::exchange(state_->found_at, std::nullopt);
+    state_->looked_for = false;
 }
 
 void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
@@ -198,7 +211,7 @@ void LiveTracking::CheckPlace(TrackedFrame& tracked) {
     tracked.to_fuse = false;
     const Eigen::Isometry3d& T_world_camera = tracked.report.track.T_world_camera;
     if (state_->asked || !state_->place.Due(T_world_camera)) return;
-    state_->place.Ask(tracked.prepared, T_world_camera, tracked.report.track.degenerate);
+    state_->place.Remember(tracked.prepared, T_world_camera, tracked.report.track.degenerate);
     Ask(tracked, true);
 }
 

@@ -48,6 +48,7 @@ class LiveTracking {
         // An answer has come since the camera was last tracked. Until then no part begins, however
         // long that takes.
         bool looked_for = false;
+        std::optional<int> found_at;  // for the next frame that is tracked: see TrackedFrame
         // Where a camera that is tracked poorly was thought to be when it was asked for.
         std::optional<Eigen::Isometry3d> T_doubted;
         std::optional<LabelSettings> labels;  // new ones for mapping
@@ -63,6 +64,7 @@ class LiveTracking {
     bool ApplyMapUpdates();
     void TakeHint();
     std::optional<Eigen::Isometry3d> TakeRelocalisation(double stamp_s);
+    void TellWhereFound(TrackedFrame& tracked);
     void CheckIfLost(TrackedFrame& tracked);
     void CheckPlace(TrackedFrame& tracked);
     void Ask(const TrackedFrame& tracked, bool check);

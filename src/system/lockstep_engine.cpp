@@ -44,6 +44,7 @@ void LockstepEngine::BeginLoops() {
     if (!config_.loops.enabled) return;
     loops_.emplace(config_.EffectiveLoops(), config_.pipeline, source_, loop_labels_,
                    RebuildPagers(config_.pipeline, source_.camera, scan_path_));
+    loops_->Switch(loops_on_);
 }
 
 bool LockstepEngine::Next(FrameOutcome& outcome) {
@@ -134,8 +135,9 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
 void LockstepEngine::Apply(const ViewerSettings& settings) {
     tracking_.stage().Apply(settings);
     mapping_.Apply(settings.labels);
-    tracking_.SetSeeking(settings.loops.value_or(true));
-    if (loops_) loops_->Switch(settings.loops.value_or(true));
+    loops_on_ = settings.loops.value_or(true);
+    tracking_.SetSeeking(loops_on_);
+    if (loops_) loops_->Switch(loops_on_);
     mapping_.feed().ShowPrediction(settings.show_prediction);
     // Also without labels so far: then they begin here.
     if (std::optional<DetectorChange> change = labelling_.Choose(settings.detector)) {

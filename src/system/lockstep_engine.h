@@ -60,6 +60,7 @@ class LockstepEngine : public Engine {
     FrameTracking tracking_;
     FrameMapping mapping_;
     std::optional<LoopStage> loops_;  // set if loop closure is on
+    bool loops_on_ = true;            // the user may switch it off meanwhile
     std::optional<LoopCloser::Labels> loop_labels_;
     bool only_localise_ = false;
     std::string scan_path_;  // of a scan saved from the start; else empty

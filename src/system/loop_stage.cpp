@@ -49,33 +49,33 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
     if (tracked.report.first) place_.Close();
     const LostCamera::Verdict verdict = camera_.Judge(tracked);
     const bool lost = verdict == LostCamera::Verdict::kLost;
-    if (!lost && verdict != LostCamera::Verdict::kDoubtful) return Check(tracking, tracked);
+    // While a place is checked, a doubtful camera is looked for only there.
+    if (!lost && (verdict != LostCamera::Verdict::kDoubtful || place_.open()))
+        return Check(tracking, tracked);
     FrameReport& report = tracked.report;
     if (tracked.prepared.valid_depth_pixels > 0) {
         Stopwatch watch;
         std::string note;
-        const auto T_map_camera = closer_.Relocalise(tracked.prepared, note);
+        const std::optional<FoundCamera> found = closer_.Relocalise(tracked.prepared, note);
         lost_ms_ = watch.LapMs();
-        if (!lost && report.track.status == TrackStatus::kGood && T_map_camera &&
-            SamePlace(*T_map_camera, report.track.T_world_camera)) {
-            camera_.Confirm();
-            return Check(tracking, tracked);
-        }
-        if (T_map_camera) bring(*T_map_camera);
-        if (T_map_camera && tracking.TrackFrom(frame, map, *T_map_camera, tracked)) {
-            const StampedPose found{frame.stamp_s, report.track.T_world_camera};
-            const bool reached = camera_.CanReach(found);
+        if (!lost && report.track.status == TrackStatus::kGood && found &&
+            SamePlace(found->T_map_camera, report.track.T_world_camera))
+            return camera_.Confirm();
+        if (found) bring(found->T_map_camera);
+        if (found && tracking.TrackFrom(frame, map, found->T_map_camera, tracked)) {
+            const StampedPose here{frame.stamp_s, report.track.T_world_camera};
+            const bool reached = camera_.CanReach(here);
             if (place_.open() || !reached) {
-                const bool confirmed =
-                    place_.Begin(tracked.prepared, found.T_world_camera, reached);
+                const bool confirmed = place_.Begin(tracked.prepared, here.T_world_camera, reached);
                 tracked.to_fuse &= confirmed;
                 AddNote(confirmed ? kPlaceConfirmed : kPlaceUnconfirmed, note);
             }
             camera_.Found(frame.stamp_s);
-            camera_.Reached(found);
+            camera_.Reached(here);
+            closer_.LinkNextTo(found->keyframe);
             return AddNote(note, report.warning);
         }
-        if (lost && !T_map_camera) AddNote(note, report.warning);
+        if (lost && !found) AddNote(note, report.warning);
     }
     if (lost && report.tracked()) tracking.RejectPose(kPoseUnconfirmed, tracked);
 }
@@ -87,10 +87,12 @@ void LoopStage::Check(TrackingStage& tracking, TrackedFrame& tracked) {
     if (!place_.Due(T_map_camera)) return;
     Stopwatch watch;
     std::string ignored;
-    place_.Ask(tracked.prepared, T_map_camera, tracked.report.track.degenerate);
-    const bool possible =
-        place_.Answer(closer_.Relocalise(tracked.prepared, ignored, T_map_camera));
-    lost_ms_ = watch.LapMs();
+    place_.Remember(tracked.prepared, T_map_camera, tracked.report.track.degenerate);
+    const std::optional<FoundCamera> found =
+        closer_.Relocalise(tracked.prepared, ignored, T_map_camera);
+    const bool possible = place_.Answer(found);
+    lost_ms_ += watch.LapMs();
+    if (found && possible && !place_.open()) closer_.LinkNextTo(found->keyframe);
     if (possible) return AddNote(place_.open() ? "" : kPlaceConfirmed, tracked.report.warning);
     camera_.Lose();
     tracking.RejectPose(kPlaceRefuted, tracked);

@@ -32,6 +32,7 @@ void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Fr
     job.stamp_s = tracked->report.stamp_s;
     job.fused = tracked->report.fused;
     job.T_world_camera = tracked->report.track.T_world_camera;
+    job.found_at = tracked->found_at;
     const int one_in = KeptOneIn(whole_.load());
     const bool whole = tracked->report.fused && one_in > 0 && ++since_whole_ >= one_in;
     if (whole) {
@@ -172,6 +173,7 @@ void LoopThread::Do(Job& job) {
 
 void LoopThread::AddFrame(Job& job) {
     Carry(history_, job.map.corrections, job.T_world_camera);
+    if (job.found_at) closer_->LinkNextTo(*job.found_at);
     if (!job.tracked) return closer_->Pass(job.stamp_s, job.T_world_camera, job.fused);
     TrackedFrame& tracked = *job.tracked;
     tracked.report.track.T_world_camera = tracked.view.T_world_camera = job.T_world_camera;
@@ -193,8 +195,7 @@ bool LoopThread::Reply() {
     answer.check = question.T_map_expected.has_value();
     // A question from before the last reset or correction is obsolete.
     if (question.map == version())
-        answer.T_world_camera =
-            closer_->Relocalise(*question.frame, answer.note, question.T_map_expected);
+        answer.found = closer_->Relocalise(*question.frame, answer.note, question.T_map_expected);
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
     return true;
 }

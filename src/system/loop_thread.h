@@ -38,8 +38,7 @@ class LoopThread {
         std::unique_ptr<BlockMap> field;
         LoopChanges news;
     };
-    // A frame of a lost camera, or of one that was just found, and the answer: its pose, or
-    // nothing.
+    // A frame of a lost camera, or of one that was just found, and where it is, if known.
     struct Question {
         MapVersion map;
         double stamp_s = 0;
@@ -50,7 +49,7 @@ class LoopThread {
     struct Answer {
         MapVersion map;
         double stamp_s = 0;
-        std::optional<Eigen::Isometry3d> T_world_camera;
+        std::optional<FoundCamera> found;
         std::string note;    // for the user
         bool check = false;  // whether it was expected somewhere
     };
@@ -121,6 +120,7 @@ class LoopThread {
         double stamp_s = 0;
         bool fused = false;
         Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+        std::optional<int> found_at;            // see TrackedFrame
         std::unique_ptr<TrackedFrame> tracked;  // null, like `frame`: only the pose is used
         std::unique_ptr<Frame> frame;
         std::int64_t frame_index = 0;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "optimize/keyframes.h"
+#include "optimize/place_finder.h"
 
 namespace tessera {
 
@@ -27,7 +28,7 @@ class PlaceCheck {
         const bool confirmed = reached && Due(T_map_camera);
         failed_ = 0;
         open_ = !confirmed;
-        Ask(frame, T_map_camera);
+        Remember(frame, T_map_camera);
         return confirmed;
     }
     // The camera is elsewhere.
@@ -39,18 +40,19 @@ class PlaceCheck {
         return open_ && ViewOverlap(seen_m_, camera_.Every(kKeyframeReduction),
                                     T_map_camera.inverse() * T_map_seen_) < kNewView;
     }
-    // This frame is looked for among the keyframes. A view that leaves a motion open, as of a bare
-    // wall, may be found nowhere, and may have drifted: it can confirm the place but not refute it.
-    void Ask(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera,
-             bool degenerate = false) {
+    // This frame is now looked for among the keyframes. A view that leaves a motion open, as of a
+    // bare wall, may be found nowhere, and may have drifted: it can confirm the place but not
+    // refute it.
+    void Remember(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera,
+                  bool degenerate = false) {
         refutes_ = !degenerate;
         seen_m_ = ReducedDepth(frame.depth_m, kKeyframeReduction);
         T_map_seen_ = T_map_camera;
     }
-    // Where the frame of the last Ask was found. Returns false if the place has been refuted: too
+    // Where the frame remembered last was found. Returns false if the place has been refuted: too
     // many views were found elsewhere or nowhere.
-    [[nodiscard]] bool Answer(const std::optional<Eigen::Isometry3d>& T_map_found) {
-        const bool there = T_map_found && SamePlace(*T_map_found, T_map_seen_);
+    [[nodiscard]] bool Answer(const std::optional<FoundCamera>& found) {
+        const bool there = found && SamePlace(found->T_map_camera, T_map_seen_);
         if (!there && refutes_) ++failed_;
         open_ = !there && failed_ < kMostFailed;
         return there || open_;

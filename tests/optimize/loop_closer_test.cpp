@@ -211,10 +211,11 @@ TEST(LoopCloser, FindsALostCameraToTheCentimetreAndRefusesAnUnknownPlace) {
     int found = 0;
     for (const Frame& frame : RoomWalk(15, 5, 24)) {
         PrepareFrame(frame, walker.settings.preparation, prepared);
-        const auto T_map_camera = walker.closer.Relocalise(prepared, note);
-        if (!T_map_camera) continue;
+        const auto here = walker.closer.Relocalise(prepared, note);
+        if (!here) continue;
         ++found;
-        EXPECT_LT((T_map_camera->translation() - frame.T_world_camera->translation()).norm(), 0.015)
+        EXPECT_LT((here->T_map_camera.translation() - frame.T_world_camera->translation()).norm(),
+                  0.015)
             << frame.index;
     }
     EXPECT_GE(found, 4);
@@ -242,6 +243,33 @@ TEST(DriftOf, GrowsWithTheWay) {
     EXPECT_FALSE(DriftOf(old, fresh, half, 0.05).possible);
     EXPECT_TRUE(DriftOf(old, fresh, half, 0.05).conceivable);
     EXPECT_FALSE(DriftOf(old, fresh, metre, 0.05).conceivable);  // 1.4 m > 0.8 + 0.05 * 10
+}
+
+// That the camera is somewhere is known before frames are added that were tracked earlier.
+TEST(LoopCloser, OnlyAFrameThatWasTrackedWhereTheCameraWasFoundIsLinkedThere) {
+    Walker walker(LoopConfig{});
+    const std::vector<Frame> seen = RoomWalk(0, 24, 6);
+    for (std::size_t i = 0; i < 20; ++i)
+        walker.Go(seen[i], i == 0
+                               ? Eigen::Isometry3d::Identity()
+                               : seen[i - 1].T_world_camera->inverse() * *seen[i].T_world_camera);
+    std::string note;
+    PreparedFrame prepared;
+    PrepareFrame(seen[1], walker.settings.preparation, prepared);
+    const auto found = walker.closer.Relocalise(prepared, note);
+    ASSERT_TRUE(found) << note;
+    const int last = walker.closer.keyframes().last().id;
+    ASSERT_LT(found->keyframe + 1, last);
+    walker.Go(RoomWalk(170, 1, 1)[0],
+              seen[19].T_world_camera->inverse() * *RoomWalk(170, 1, 1)[0].T_world_camera);
+    ASSERT_EQ(walker.closer.keyframes().last().id, last + 1);
+    EXPECT_EQ(walker.closer.graph().edges().back().from, last);
+    walker.closer.LinkNextTo(found->keyframe);
+    walker.Go(seen[1], RoomWalk(170, 1, 1)[0].T_world_camera->inverse() * *seen[1].T_world_camera);
+    ASSERT_EQ(walker.closer.keyframes().last().id, last + 2);
+    EXPECT_TRUE(std::ranges::any_of(walker.closer.graph().edges(), [&](const PoseEdge& edge) {
+        return edge.from == found->keyframe && edge.to == last + 2 && !edge.loop;
+    }));
 }
 
 }  // namespace

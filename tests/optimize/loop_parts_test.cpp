@@ -183,11 +183,11 @@ TEST_F(LoopParts, AreJoinedByALostCameraThatIsFoundInBoth) {
     };
     const auto in_second = relocalise(9, PartStart(1));
     ASSERT_TRUE(in_second) << note;
-    EXPECT_TRUE(InOnePart(*in_second, PartStart(1)));
+    EXPECT_TRUE(InOnePart(in_second->T_map_camera, PartStart(1)));
     EXPECT_EQ(note.find("joined"), std::string::npos) << note;
     const auto found = relocalise(9);
     ASSERT_TRUE(found) << note;
-    EXPECT_TRUE(InOnePart(*found, PartStart(0))) << "which has more keyframes";
+    EXPECT_TRUE(InOnePart(found->T_map_camera, PartStart(0))) << "which has more keyframes";
     EXPECT_EQ(note.find("joined"), std::string::npos) << note;
     ASSERT_TRUE(relocalise(100)) << note;
     EXPECT_NE(note.find("is joined with"), std::string::npos) << note;

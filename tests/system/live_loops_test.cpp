@@ -5,9 +5,11 @@
 
 #include "optimize/drifting_walk.h"
 #include "optimize/pose_graph.h"
+#include "support/temp_folder.h"
 #include "system/frame_list.h"
 #include "system/live_engine.h"
 #include "system/map_version.h"
+#include "system/scan_restore.h"
 
 namespace tessera {
 namespace {
@@ -58,11 +60,17 @@ TEST_P(KidnappedLive, IsFound) {
         input.config.live.playback_speed = 1000;
         input.config.live.queue_frames = 400;
     }
+    const TempFolder folder;
+    Result<ScanPlan> plan = BeginScan(folder / "a.scan", source->info(), input.config);
+    ASSERT_TRUE(plan.ok()) << plan.message();
+    input.scan = std::move(plan.value());
     input.source = std::move(source);
     LiveEngine engine(std::move(input));
     FrameOutcome outcome;
     double error_m = 1;
+    std::string said;
     while (engine.Next(outcome)) {
+        said += outcome.message + "\n";
         const FrameReport& report = outcome.report;
         if (outcome.kind != FrameOutcome::Kind::kFrame || report.index < 60) continue;
         if (report.index < 105) {
@@ -77,6 +85,18 @@ TEST_P(KidnappedLive, IsFound) {
     }
     EXPECT_LT(error_m, 0.02);
     EXPECT_FALSE(engine.CorrectedPath().empty());
+    if (slow) return;  // nothing is fused before a second view confirms the place
+    // The first keyframe since is linked to the one that showed the place.
+    Result<ScanContent> scan = ReadScan(folder / "a.scan", {.frames = true});
+    ASSERT_TRUE(scan.ok()) << scan.message();
+    const std::vector<Keyframe>& keyframes = scan.value().keyframes;
+    ASSERT_GE(keyframes.back().frame_index, 105);
+    EXPECT_TRUE(std::ranges::any_of(scan.value().loops.edges, [&](const PoseEdge& edge) {
+        const std::string frame =
+            std::to_string(keyframes[static_cast<std::size_t>(edge.from)].frame_index);
+        return edge.to == keyframes.back().id && !edge.loop &&
+               said.find("relocalised at frame " + frame + "\n") != std::string::npos;
+    })) << said;
 }
 INSTANTIATE_TEST_SUITE_P(Stamps, KidnappedLive, testing::Bool());
 

@@ -18,11 +18,13 @@ using testing_support::RoomWalk;
 // Acts as the mapping thread. Its poses drift in the current map.
 class LoopThreadTest : public testing::Test {
   protected:
-    void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera) {
+    void Go(const Frame& frame, const Eigen::Isometry3d& T_last_camera,
+            std::optional<int> found_at = {}) {
         T_map_camera = Normalised(T_map_camera * T_last_camera);
         auto tracked = tracked_frames.Take();
         PrepareFrame(frame, settings.preparation, tracked->prepared);
         tracked->report = {};
+        tracked->found_at = found_at;
         tracked->report.stamp_s = frame.stamp_s;
         tracked->report.fused = true;
         tracked->report.track.T_world_camera = tracked->view.T_world_camera = T_map_camera;
@@ -218,6 +220,16 @@ TEST(LoopThreadQueue, KeepsFewerFramesTheMoreWait) {
     EXPECT_GE(covered, 60);
 }
 
+// The second frame is no keyframe by itself.
+TEST_F(LoopThreadTest, AFrameTrackedWhereTheCameraWasFoundIsAKeyframe) {
+    const std::vector<Frame> walk = RoomWalk(0, 3, 1);
+    for (std::size_t i = 0; i < walk.size(); ++i)
+        Go(walk[i], Eigen::Isometry3d::Identity(), i == 1 ? std::optional(0) : std::nullopt);
+    thread.Finish(nullptr, {});
+    TakeCorrections();
+    EXPECT_EQ(poses.size(), 2u);
+}
+
 TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
     const std::vector<Frame> walk = RoomWalk(0, 4, 6);  // the first is a keyframe
     for (std::size_t i = 0; i < walk.size(); ++i)
@@ -233,14 +245,15 @@ TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
         return answer;
     };
     const LoopThread::Answer here = ask({0, 0});
-    ASSERT_TRUE(here.T_world_camera.has_value());
-    EXPECT_LT((here.T_world_camera->translation() - walk[0].T_world_camera->translation()).norm(),
-              0.02);
+    ASSERT_TRUE(here.found.has_value());
+    EXPECT_LT(
+        (here.found->T_map_camera.translation() - walk[0].T_world_camera->translation()).norm(),
+        0.02);
     EXPECT_EQ(here.stamp_s, 1.5);
     thread.Reset({1, 0});
     mapping.Wait([&] { return thread.waiting() == 0; });
-    EXPECT_FALSE(ask({0, 0}).T_world_camera.has_value());
-    EXPECT_FALSE(ask({1, 0}).T_world_camera.has_value());  // no keyframe exists after the reset
+    EXPECT_FALSE(ask({0, 0}).found.has_value());
+    EXPECT_FALSE(ask({1, 0}).found.has_value());  // no keyframe exists after the reset
     thread.Finish(nullptr, {});
     EXPECT_TRUE(thread.Path().empty());
 }

@@ -184,6 +184,27 @@ TEST_F(LostCameraRun, TheNewPartIsJoinedWithTheRest) {
     for (const auto& vertex : engine->TakeMesh().vertices) ASSERT_LT(vertex.norm(), 20);
 }
 
+TEST_F(LostCameraRun, ALostCameraIsNotLookedForWhereThatWasSwitchedOffBeforeAReset) {
+    ViewerLink link;
+    viewer = &link;
+    const auto found = [&](bool loops) {
+        std::vector<Frame> frames = RoomWalk(0, 30, 3);
+        frames.insert(frames.end(), 45, testing_support::Blank());
+        frames.insert(frames.end(), 3, frames.front());
+        ViewerSettings settings;
+        settings.loops = loops;
+        link.settings.Push(std::move(settings));
+        Ask(Command::kReset);
+        outcomes.clear();
+        Make(false, std::move(frames));
+        return std::ranges::any_of(Reports(), [](const FrameReport* r) {
+            return r->warning.find("relocalised at") != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(found(true));
+    EXPECT_FALSE(found(false));
+}
+
 // The first part is paged out while the other is seen.
 TEST_F(LostCameraRun, PartsAreTheSameWithAMemoryLimit) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";

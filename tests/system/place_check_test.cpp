@@ -28,7 +28,7 @@ TEST(PlaceCheck, AsksOnlyWhereMostOfTheViewIsNew) {
     EXPECT_TRUE(check.open());
     EXPECT_FALSE(check.Due(AlongX(1.0)));
     EXPECT_TRUE(check.Due(AlongX(1.5)));  // the view is 2.46 m wide
-    check.Ask(SeenWall(), AlongX(1.5));
+    check.Remember(SeenWall(), AlongX(1.5));
     EXPECT_FALSE(check.Due(AlongX(1.5)));
     check.Move(AlongX(10));  // the map was corrected
     EXPECT_FALSE(check.Due(AlongX(11.5)));
@@ -38,8 +38,8 @@ TEST(PlaceCheck, AsksOnlyWhereMostOfTheViewIsNew) {
 TEST(PlaceCheck, ASecondViewThereConfirms) {
     PlaceCheck check(kPlaceCamera);
     EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0), false));
-    check.Ask(SeenWall(), AlongX(1.5));
-    EXPECT_TRUE(check.Answer(AlongX(1.55)));
+    check.Remember(SeenWall(), AlongX(1.5));
+    EXPECT_TRUE(check.Answer(FoundCamera{AlongX(1.55)}));
     EXPECT_FALSE(check.open());
 }
 
@@ -60,28 +60,29 @@ TEST(PlaceCheck, ViewsThatLeaveAMotionOpenConfirmButDoNotRefute) {
     PlaceCheck check(kPlaceCamera);
     EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0), false));
     for (int i = 0; i < 5; ++i) {
-        check.Ask(SeenWall(), AlongX(1.5), true);
-        EXPECT_TRUE(check.Answer(i % 2 == 0 ? std::nullopt : std::optional(AlongX(9))));
+        check.Remember(SeenWall(), AlongX(1.5), true);
+        EXPECT_TRUE(
+            check.Answer(i % 2 == 0 ? std::nullopt : std::optional(FoundCamera{AlongX(9)})));
         EXPECT_TRUE(check.open());
     }
-    check.Ask(SeenWall(), AlongX(1.5), true);
-    EXPECT_TRUE(check.Answer(AlongX(1.5)));
+    check.Remember(SeenWall(), AlongX(1.5), true);
+    EXPECT_TRUE(check.Answer(FoundCamera{AlongX(1.5)}));
     EXPECT_FALSE(check.open());
 }
 
 TEST(PlaceCheck, ThreeViewsElsewhereOrNowhereRefute) {
     PlaceCheck check(kPlaceCamera);
     EXPECT_FALSE(check.Begin(SeenWall(), AlongX(0), false));
-    check.Ask(SeenWall(), AlongX(1.5));
+    check.Remember(SeenWall(), AlongX(1.5));
     EXPECT_TRUE(check.Answer(std::nullopt));
     EXPECT_TRUE(check.open());
-    check.Ask(SeenWall(), AlongX(3));
-    EXPECT_TRUE(check.Answer(AlongX(3.2)));
-    check.Ask(SeenWall(), AlongX(4.5));
+    check.Remember(SeenWall(), AlongX(3));
+    EXPECT_TRUE(check.Answer(FoundCamera{AlongX(3.2)}));
+    check.Remember(SeenWall(), AlongX(4.5));
     EXPECT_FALSE(check.Answer(std::nullopt));
     EXPECT_FALSE(check.open());
     EXPECT_FALSE(check.Begin(SeenWall(), AlongX(9), false));  // found again: counts anew
-    check.Ask(SeenWall(), AlongX(10.5));
+    check.Remember(SeenWall(), AlongX(10.5));
     EXPECT_TRUE(check.Answer(std::nullopt));
 }
 
