@@ -60,8 +60,10 @@ void AddPlanCommand(CLI::App& app, CommandContext& context) {
     command->add_option("--title", a->title, "Title of the drawing (default: INPUT's name)")
         ->type_name("TEXT");
     command
-        ->add_option("--up", a->request.up,
-                     "Which way is up in FILE.ply: x, y, z, -x, -y or -z (default z)")
+        ->add_option(
+            "--up", a->request.up,
+            "Which way is up in the mesh: x, y, z, -x, -y or -z (default: z for FILE.ply, else as "
+            "the camera was held)")
         ->type_name("AXIS");
     command
         ->add_option("--noise", a->request.options.noise_m,

@@ -13,13 +13,28 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kFewest = 2000;  // vertices of a surface; 0.2 square metres at 1 cm voxels
 
-// How the cameras were held on average; empty if in every direction.
-std::optional<Eigen::Vector3d> MeanUp(const std::vector<StampedPose>& path) {
-    constexpr double kLeast = 0.3;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const StampedPose& pose : path) sum -= pose.T_world_camera.linear().col(1);
-    if (path.empty() || sum.norm() < kLeast * static_cast<double>(path.size())) return std::nullopt;
-    return sum.normalized();
+// Up, roughly, from how the cameras were held on average: upright, unless their x axis keeps its
+// direction much better; then they were held sideways. Empty if they were turned in every
+// direction.
+std::optional<Eigen::Vector3d> MeanUp(const std::vector<StampedPose>& path,
+                                      const TriangleMesh& mesh) {
+    constexpr double kLeast = 0.3, kMuchBetter = 1.5;
+    Eigen::Vector3d up = Eigen::Vector3d::Zero(), left = Eigen::Vector3d::Zero();
+    for (const StampedPose& pose : path) {
+        left -= pose.T_world_camera.linear().col(0) / static_cast<double>(path.size());
+        up -= pose.T_world_camera.linear().col(1) / static_cast<double>(path.size());
+    }
+    const bool sideways = left.norm() > kMuchBetter * up.norm();
+    if (sideways) up = left;
+    if (up.norm() < kLeast) return std::nullopt;
+    up.normalize();
+    // To the left or to the right: more surface is seen from above than from below.
+    double facing_up = 0;
+    for (const Eigen::Vector3f& normal : mesh.normals) {
+        const double along = normal.cast<double>().dot(up);
+        if (std::abs(along) > std::cos(40 * kDegree)) facing_up += along;
+    }
+    return sideways && facing_up < 0 ? Eigen::Vector3d(-up) : up;
 }
 
 // The direction, within 40 degrees of `about`, to which most normals point, or from which.
@@ -115,11 +130,10 @@ double HeightOf(int layer) { return 0.02 * (layer + 0.5); }
 
 Result<Level> FindLevel(const TriangleMesh& mesh, const std::vector<StampedPose>& path) {
     constexpr double kFloorShare = 0.2;
-    const std::optional<Eigen::Vector3d> about = MeanUp(path);
+    const std::optional<Eigen::Vector3d> about = MeanUp(path, mesh);
     if (!about)
         return Status::Error(
-            "the path does not show which way is up; the camera was turned in "
-            "every direction");
+            "the path does not show which way is up; the camera was turned in every direction");
     if (mesh.normals.size() != mesh.vertices.size())
         return Status::Error("the mesh has no normals, from which the floor is found");
     const Eigen::Vector3d up = MostNormals(mesh, *about);

@@ -67,17 +67,18 @@ Result<FloorPlan> PlanOfRun(const PlanRequest& request) {
     std::error_code ignored;
     const std::string& path = request.input;
     const bool is_mesh = std::filesystem::path(path).extension() == ".ply";
-    if (!is_mesh && !request.up.empty())
-        return Status::Error("--up: a run and a scan know which way is up; leave --up out");
     Result<PlanInput> input = is_mesh ? FromMesh(path, request.up)
                               : std::filesystem::is_directory(path, ignored) ? FromFolder(path)
                                                                              : FromScanFile(path);
     if (!input.ok()) return input.status();
+    if (!is_mesh && !request.up.empty()) {
+        const Result<StampedPose> pose = UprightCamera(request.up);
+        if (!pose.ok()) return pose.status();
+        input.value().scanned.path = {pose.value()};
+    }
     Result<FloorPlan> plan =
         MakeFloorPlan(input.value().scanned.mesh, input.value().scanned.path, request.options);
-    if (!plan.ok())
-        return Status::Error(path + ": " + plan.message() +
-                             (is_mesh ? " (which way is up: --up)" : ""));
+    if (!plan.ok()) return Status::Error(path + ": " + plan.message() + " (which way is up: --up)");
     AddObjects(input.value().objects, plan.value());
     return plan;
 }

@@ -88,6 +88,30 @@ TEST(Level, FindsUpFloorAndHeadingOfARoomSeenByATiltedCamera) {
     EXPECT_EQ(y_down.normals[5].z(), mesh.normals[5].y());
 }
 
+// A phone is held sideways, to the left or to the right.
+TEST(Level, FindsUpHoweverTheCameraWasHeld) {
+    using Eigen::AngleAxisd, Eigen::Vector3d;
+    for (const int roll : {0, 90, -90}) {
+        TriangleMesh mesh = LevelRoom(true);
+        std::vector<StampedPose> path;
+        for (const StampedPose& pose : Walk()) {
+            Eigen::Matrix3d R;
+            R << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+            path.push_back(pose);
+            path.back().T_world_camera.linear() =
+                AngleAxisd(0.1 * pose.stamp_s, Vector3d::UnitZ()) * R *
+                AngleAxisd(-20 * std::numbers::pi / 180, Vector3d::UnitX()) *
+                AngleAxisd(roll * std::numbers::pi / 180, Vector3d::UnitZ());
+        }
+        IntoCameraWorld(mesh, path);
+        const Result<Level> level = FindLevel(mesh, path);
+        ASSERT_TRUE(level.ok()) << level.message() << roll;
+        MakeLevel(level.value(), mesh, path);
+        for (const StampedPose& pose : path)
+            EXPECT_NEAR(pose.T_world_camera.translation().z(), 1.4, 0.003) << roll;
+    }
+}
+
 TEST(Level, WhereThereIsNoFloorItIsAnError) {
     TriangleMesh mesh = LevelRoom(false);
     std::vector<StampedPose> path = Walk();

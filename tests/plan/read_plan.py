@@ -59,6 +59,14 @@ def main():
         assert "6.00 m\u00b2" in texts or "6.01 m\u00b2" in texts, texts
         plan = json.loads((folder / "plan/plan.json").read_text(encoding="utf-8"))
         assert abs(plan["rooms"][0]["area"] - 6) < 0.02 and abs(plan["ceiling_height"] - 2.5) < 0.005, plan
+        # The camera of this run says that -y is up.
+        (folder / "run").mkdir()
+        write_ply(folder / "run/mesh.ply", BOXES)
+        (folder / "run/trajectory.txt").write_text("0 1 1 1 0 0 0 1\n", encoding="ascii")
+        subprocess.run([tessera, "plan", "run", "--up", "z", "--out", "plan2"], cwd=folder, check=True,
+                       stdout=subprocess.DEVNULL)
+        rooms = json.loads((folder / "plan2/plan.json").read_text(encoding="utf-8"))["rooms"]
+        assert len(rooms) == 1 and abs(rooms[0]["area"] - 6) < 0.02, rooms
         check_bad_input(tessera, folder)
         try:
             import ezdxf  # pylint: disable=import-outside-toplevel
