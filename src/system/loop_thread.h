@@ -137,7 +137,7 @@ class LoopThread {
     void BeginWorld(int world);
     bool MayCorrect() const {
         return seeking_.load() && closer_->HasWork() && map_.load() == Asked::kNo &&
-               !settled_.load() && updates_.size() < kUpdates - kCorrections;
+               !settled_.load() && updates_.size() < kUpdates - kForCorrections;
     }
     void Do(Job& job);
     void AddFrame(Job& job);
@@ -151,8 +151,8 @@ class LoopThread {
 
     Settings settings_;
     Surroundings around_;
-    // The last places in `updates_` are reserved for corrections.
-    static constexpr std::size_t kJobs = 4096, kUpdates = 8, kCorrections = 3;
+    // The last places in `updates_`, kForCorrections, are reserved for corrections.
+    static constexpr std::size_t kJobs = 4096, kUpdates = 8, kForCorrections = 3;
     // Waiting frames that keep their images, about 6 MB each: all of the first, fewer of the rest.
     static constexpr int kWhole = 16, kAllWhole = 8;
     std::atomic<int> whole_{0};

@@ -23,6 +23,10 @@ inline bool FitsCompletely(const TrackResult& track) {
            track.inlier_fraction >= kFits && track.distance_rms_m <= kDistance_m;
 }
 
+// For this long after the camera was tracked last it is within reach of that place. Later it may be
+// anywhere, and must be found by appearance.
+inline constexpr double kWithinReach_s = 2;
+
 // Owner thread only.
 class LostCamera {
   public:
@@ -75,9 +79,9 @@ class LostCamera {
     // place to mistake this one for.
     bool CanReach(const StampedPose& found) const {
         // Near: what a frame may be off the prediction and still be trusted, at both ends.
-        constexpr double kLongest_s = 2, kFastest_m_per_s = 1, kNear_m = 0.4;
+        constexpr double kFastest_m_per_s = 1, kNear_m = 0.4;
         const double gap_s = before_ ? std::abs(found.stamp_s - before_->stamp_s) : 0;
-        if (!before_ || gap_s > kLongest_s) return false;
+        if (!before_ || gap_s > kWithinReach_s) return false;
         const double way_m =
             (found.T_world_camera.translation() - before_->T_world_camera.translation()).norm();
         return way_m <= kNear_m + kFastest_m_per_s * gap_s;
