@@ -45,7 +45,7 @@ class LostCamera {
         started_ = started_ || report.first;
         if (std::exchange(resumed_, false))
             lost_ = std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
-        if (report.first) Found(report.stamp_s);
+        if (report.first) BackOnTrack(report.stamp_s);
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) return report.tracked() ? JudgeTracked(report) : Verdict::kTracking;
         poor_since_s_.reset();
@@ -58,7 +58,7 @@ class LostCamera {
         if (!fits && !there) return Verdict::kLost;
         // What the view leaves open is as it was when the camera was relocalised.
         if (relocalised_ && report.track.degenerate) return Verdict::kLost;
-        Found(report.stamp_s);
+        BackOnTrack(report.stamp_s);
         return Verdict::kFoundAgain;
     }
 
@@ -70,7 +70,7 @@ class LostCamera {
     }
 
     // The camera was relocalised and tracked there.
-    void Found(double stamp_s) {
+    void BackOnTrack(double stamp_s) {
         Confirm();
         lost_ = relocalised_ = false;
         last_seen_s_ = stamp_s;
@@ -86,8 +86,8 @@ class LostCamera {
             (found.T_world_camera.translation() - before_->T_world_camera.translation()).norm();
         return way_m <= kNear_m + kFastest_m_per_s * gap_s;
     }
-    // It has got there.
-    void Reached(const StampedPose& found) { before_ = found; }
+    // It has got there: that is where it was last.
+    void SetLastGood(const StampedPose& found) { before_ = found; }
     // The map was moved.
     void Move(const Eigen::Isometry3d& T_new_old) {
         if (before_) before_->T_world_camera = Normalised(T_new_old * before_->T_world_camera);
@@ -106,7 +106,7 @@ class LostCamera {
         last_seen_s_ = std::numeric_limits<double>::lowest();
     }
     // The camera was relocalised at this time. Tracking must still confirm the pose.
-    void Seen(double stamp_s) {
+    void SetRelocalised(double stamp_s) {
         last_seen_s_ = stamp_s;
         relocalised_ = true;
     }
@@ -161,11 +161,7 @@ class LostCamera {
     bool relocalised_ = false;
 };
 
-inline constexpr const char *kPoseUnconfirmed =
-                                "nothing confirms the pose found after tracking was lost",
-                            *kPlaceUnconfirmed =
-                                "nothing is fused until a second view confirms the place",
-                            *kPlaceConfirmed = "a second view confirms the place",
-                            *kPlaceRefuted = "other views show that this is another place";
+inline constexpr const char* kPoseUnconfirmed =
+    "nothing confirms the pose found after tracking was lost";
 
 }  // namespace tessera
