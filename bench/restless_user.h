@@ -185,9 +185,7 @@ class RestlessUser {
         if (Sometimes(30, "pauses")) Send(Kind::kPause, ""), resume_s_ = now_s + 1;
         bool changed = false;
         if (Sometimes(5, "switches of the tracker")) {
-            constexpr std::array kMethods{TrackingMethod::kSdf, TrackingMethod::kSdfGeometric,
-                                          TrackingMethod::kIcp, TrackingMethod::kIcpRgb};
-            settings_.method = kMethods[random_() % kMethods.size()];
+            settings_.method = kTrackingMethods[random_() % kTrackingMethods.size()].method;
             changed = true;
         }
         if (settings_.fusing ? Sometimes(30, "times without fusion")

@@ -56,10 +56,6 @@ Keyframe& Keyframes::Add(std::int64_t frame_index, double stamp_s, const Prepare
     next.frame_index = frame_index;
     next.stamp_s = stamp_s;
     next.T_map_camera = track.T_world_camera;
-    next.T_world_camera = next.T_map_camera;
-    if (!empty())
-        next.T_world_camera =
-            Normalised(last().T_world_camera * last().T_map_camera.inverse() * next.T_map_camera);
     next.features = ExtractFeatures(frame, camera_, max_features_);
     next.view = camera_.Every(kKeyframeReduction);
     next.depth_m = ReducedDepth(frame.depth_m, kKeyframeReduction);

@@ -35,8 +35,7 @@ class Keyframes {
     void Follow(const Eigen::Isometry3d& T_map_camera);
     // True if the frame, the last one followed, should become a keyframe.
     bool Wanted(const PreparedFrame& frame, const Eigen::Isometry3d& T_map_camera) const;
-    // Sets its T_world_camera from the last keyframe's and their relative pose in the map.
-    // `motion`: while it was captured.
+    // The caller sets its T_world_camera. `motion`: while it was captured.
     Keyframe& Add(std::int64_t frame_index, double stamp_s, const PreparedFrame& frame,
                   const TrackResult& track, const FrameMotion& motion = {});
     // The map was moved, and the last pose with it; the path continues from there.

@@ -19,7 +19,6 @@ struct PlanLine {
     double Distance(const Eigen::Vector2d& p) const { return normal.dot(p) - offset_m; }
     double Along(const Eigen::Vector2d& p) const { return Direction().dot(p); }
     Eigen::Vector2d At(double along_m) const { return offset_m * normal + along_m * Direction(); }
-    PlanLine Reversed() const { return {-normal, -offset_m}; }
     // Where `other` crosses, as a position along this line; infinite if (nearly) parallel.
     double Crossing(const PlanLine& other) const {
         const double along = other.normal.dot(Direction());

@@ -181,7 +181,8 @@ std::vector<RawDetection> DecodeOutputs(const YoloLayout& layout,
             DecodeRows(boxes, boxes.shape[1], layout, 1, min_probability, found);
             break;
         case ModelFamily::kYolov8: DecodeYolov8(boxes, layout, min_probability, found); break;
-        default:
+        case ModelFamily::kAuto:  // never, once recognised
+        case ModelFamily::kDarknet:
             for (const OutputArray& output : outputs)
                 DecodeRows(output, output.shape[0], layout, static_cast<float>(layout.input_px),
                            min_probability, found);

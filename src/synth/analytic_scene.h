@@ -71,8 +71,6 @@ class AnalyticScene : public Scene {
     TriangleMesh InstanceMesh(int instance) const override;
     std::optional<double> SignedDistance(const Eigen::Vector3d& p_world) const override;
 
-    std::size_t part_count() const { return parts_.size(); }
-
   private:
     friend class AnalyticView;
 

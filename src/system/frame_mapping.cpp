@@ -106,9 +106,11 @@ void FrameMapping::PutMap(LoopCloser::Correction correction, std::uint32_t moved
         stage_.ReplaceMoved(std::move(correction.map), correction.T_new_old, moved_at);
     else
         stage_.Replace(std::move(correction.map), std::move(correction.labels));
-    if (paging_)
-        paging_->Replaced(correction.T_new_old,
-                          static_cast<const RebuildPaging&>(*correction.pager), stage_, *scan_);
+    if (paging_) {
+        const auto* pager = dynamic_cast<const RebuildPaging*>(correction.pager.get());
+        TESSERA_CHECK(pager != nullptr, "a corrected map without the pager of its blocks");
+        paging_->Replaced(correction.T_new_old, *pager, stage_, *scan_);
+    }
     if (scan_) scan_->Move(correction.T_new_old);
 }
 

@@ -58,7 +58,12 @@ struct LiveHint {
 };
 
 struct LiveLinks {
-    static constexpr std::size_t kTasks = 8, kCorrections = 3, kOutcomes = 4096;
+    static constexpr std::size_t kTasks = 8, kOutcomes = 4096;
+    // Frames that mapping may answer beside those that wait: the one in its hands, and the one that
+    // tracking passes on.
+    static constexpr std::size_t kInHand = 2;
+    // Corrected maps on their way to tracking: another is passed on only while fewer updates wait.
+    static constexpr std::size_t kCorrections = 3;
 
     // With a device the tracking thread also maps, so both sleep on one Wake.
     LiveLinks(bool one_thread, Notices& run_notices, Wake& owner)
@@ -77,7 +82,7 @@ struct LiveLinks {
     Wake& mapping;
     Notices& notices;
     NewestQueue<FrameOutcome> outcomes;  // all threads to the owner
-    FifoQueue<MapUpdate> map_updates{kTasks + 2 + kCorrections, tracking};
+    FifoQueue<MapUpdate> map_updates{kTasks + kInHand + kCorrections, tracking};
     NewestQueue<LiveHint> hints{1, tracking};
 
     Pool<Frame> frames;

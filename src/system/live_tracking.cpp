@@ -169,7 +169,7 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
     }
     links_.notices.Tell(answer.note);
     state_->life.stage().Relocate({answer.stamp_s, T_found_camera});
-    state_->lost.Seen(stamp_s);
+    state_->lost.SetRelocalised(stamp_s);
     state_->found_at = answer.found->keyframe;
     return T_found_camera;
 }
@@ -194,7 +194,7 @@ void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
                 state_->place.Begin(tracked.prepared, found.T_world_camera, reached);
             links_.notices.Tell(confirmed ? kPlaceConfirmed : kPlaceUnconfirmed);
         }
-        if (by_appearance && tracked.report.tracked()) state_->lost.Reached(found);
+        if (by_appearance && tracked.report.tracked()) state_->lost.SetLastGood(found);
         if (verdict == LostCamera::Verdict::kDoubtful && !state_->asked && !state_->place.open()) {
             state_->T_doubted = found.T_world_camera;
             Ask(tracked, false);

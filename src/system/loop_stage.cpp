@@ -70,8 +70,8 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
                 tracked.to_fuse &= confirmed;
                 AddNote(confirmed ? kPlaceConfirmed : kPlaceUnconfirmed, note);
             }
-            camera_.Found(frame.stamp_s);
-            camera_.Reached(here);
+            camera_.BackOnTrack(frame.stamp_s);
+            camera_.SetLastGood(here);
             closer_.LinkNextTo(found->keyframe);
             return AddNote(note, report.warning);
         }

@@ -1,5 +1,5 @@
-// Loop closure and relocalisation in the lockstep engine, between tracking and mapping. The only
-// place that knows both stages and the LoopCloser.
+// Loop closure and relocalisation in the lockstep engine, between tracking and mapping. Owns the
+// LoopCloser.
 #pragma once
 
 #include <functional>

@@ -204,7 +204,7 @@ void LoopThread::ReportProblems() { around_.notices.Tell(closer_->TakeError()); 
 
 // News that does not fit is sent later, together with newer news.
 void LoopThread::Report() {
-    if (saved_.load() && updates_.size() < kUpdates - kCorrections - 1)
+    if (saved_.load() && updates_.size() < kUpdates - kForCorrections - 1)
         Push({world_, std::nullopt, nullptr, journal_.Take(*closer_)});
 }
 

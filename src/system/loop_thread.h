@@ -1,6 +1,7 @@
 // Loop closure in a live run: a low-priority thread that owns the LoopCloser. Mapping offers it
-// fused frames and takes corrected maps from it. Tracking asks it where a lost camera is. No thread
-// waits for it before the end of the run.
+// fused frames and takes corrected maps from it. Tracking asks it where a lost camera is. Before
+// the end of the run a thread waits for it only in Reset, GiveMap and EnableLabels, if the job
+// queue is full.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -66,8 +67,8 @@ class LoopThread {
     LoopThread(Settings settings, Surroundings surroundings);
 
     // ---- Mapping thread.
-    // Call for each tracked frame, after its fusion. If too many frames wait, only the pose is
-    // kept.
+    // Call for each tracked frame, after its fusion. If many frames wait, only the pose is kept of
+    // some or all (KeptOneIn); if the job queue is full, nothing.
     void Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame, MapVersion map);
     void OfferDetections(std::int64_t frame_index, std::vector<Detection> detections,
                          MapVersion map);
@@ -75,7 +76,7 @@ class LoopThread {
     // there is no memory for one. It must hold the frames offered so far, and no others.
     bool wants_map() const { return map_.load() == Asked::kYes; }
     void GiveMap(std::unique_ptr<BlockMap> copy, MapVersion map);
-    // Waits if the job queue is full.
+    // Waits if the job queue is full, as do GiveMap and EnableLabels.
     void Reset(MapVersion map);
     // Corrected maps that are begun after the frames so far have labels.
     void EnableLabels(LoopCloser::Labels labels);
@@ -136,7 +137,7 @@ class LoopThread {
     void BeginWorld(int world);
     bool MayCorrect() const {
         return seeking_.load() && closer_->HasWork() && map_.load() == Asked::kNo &&
-               !settled_.load() && updates_.size() < kUpdates - kCorrections;
+               !settled_.load() && updates_.size() < kUpdates - kForCorrections;
     }
     void Do(Job& job);
     void AddFrame(Job& job);
@@ -150,8 +151,8 @@ class LoopThread {
 
     Settings settings_;
     Surroundings around_;
-    // The last places in `updates_` are reserved for corrections.
-    static constexpr std::size_t kJobs = 4096, kUpdates = 8, kCorrections = 3;
+    // The last places in `updates_`, kForCorrections, are reserved for corrections.
+    static constexpr std::size_t kJobs = 4096, kUpdates = 8, kForCorrections = 3;
     // Waiting frames that keep their images, about 6 MB each: all of the first, fewer of the rest.
     static constexpr int kWhole = 16, kAllWhole = 8;
     std::atomic<int> whole_{0};

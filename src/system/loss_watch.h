@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "optimize/scan_parts.h"
+#include "system/lost_camera.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -34,7 +35,7 @@ class LossWatch {
         anywhere_ = good_ <= kShortPart
                         ? lost_ >= good_ && std::abs(report.stamp_s - good_s_) >= kLooking_s
                         : std::abs(report.stamp_s - *lost_since_s_) >= kLooking_s &&
-                              std::abs(report.stamp_s - tracked_s_) >= kAnywhere_s;
+                              std::abs(report.stamp_s - tracked_s_) >= kWithinReach_s;
     }
     // The camera sees something, and has been looked for long enough.
     bool anywhere() const { return anywhere_; }
@@ -42,8 +43,6 @@ class LossWatch {
 
   private:
     static constexpr double kLooking_s = 1;
-    // As in LostCamera: after that, the camera must be found by appearance.
-    static constexpr double kAnywhere_s = 2;
 
     std::int64_t good_ = 0, lost_ = 0;    // frames; lost ones since the last good one
     double good_s_ = 0, tracked_s_ = 0;   // the last frame that was tracked well, or at all

@@ -23,6 +23,10 @@ inline bool FitsCompletely(const TrackResult& track) {
            track.inlier_fraction >= kFits && track.distance_rms_m <= kDistance_m;
 }
 
+// For this long after the camera was tracked last it is within reach of that place. Later it may be
+// anywhere, and must be found by appearance.
+inline constexpr double kWithinReach_s = 2;
+
 // Owner thread only.
 class LostCamera {
   public:
@@ -41,7 +45,7 @@ class LostCamera {
         started_ = started_ || report.first;
         if (std::exchange(resumed_, false))
             lost_ = std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
-        if (report.first) Found(report.stamp_s);
+        if (report.first) BackOnTrack(report.stamp_s);
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) return report.tracked() ? JudgeTracked(report) : Verdict::kTracking;
         poor_since_s_.reset();
@@ -54,7 +58,7 @@ class LostCamera {
         if (!fits && !there) return Verdict::kLost;
         // What the view leaves open is as it was when the camera was relocalised.
         if (relocalised_ && report.track.degenerate) return Verdict::kLost;
-        Found(report.stamp_s);
+        BackOnTrack(report.stamp_s);
         return Verdict::kFoundAgain;
     }
 
@@ -66,7 +70,7 @@ class LostCamera {
     }
 
     // The camera was relocalised and tracked there.
-    void Found(double stamp_s) {
+    void BackOnTrack(double stamp_s) {
         Confirm();
         lost_ = relocalised_ = false;
         last_seen_s_ = stamp_s;
@@ -75,15 +79,15 @@ class LostCamera {
     // place to mistake this one for.
     bool CanReach(const StampedPose& found) const {
         // Near: what a frame may be off the prediction and still be trusted, at both ends.
-        constexpr double kLongest_s = 2, kFastest_m_per_s = 1, kNear_m = 0.4;
+        constexpr double kFastest_m_per_s = 1, kNear_m = 0.4;
         const double gap_s = before_ ? std::abs(found.stamp_s - before_->stamp_s) : 0;
-        if (!before_ || gap_s > kLongest_s) return false;
+        if (!before_ || gap_s > kWithinReach_s) return false;
         const double way_m =
             (found.T_world_camera.translation() - before_->T_world_camera.translation()).norm();
         return way_m <= kNear_m + kFastest_m_per_s * gap_s;
     }
-    // It has got there.
-    void Reached(const StampedPose& found) { before_ = found; }
+    // It has got there: that is where it was last.
+    void SetLastGood(const StampedPose& found) { before_ = found; }
     // The map was moved.
     void Move(const Eigen::Isometry3d& T_new_old) {
         if (before_) before_->T_world_camera = Normalised(T_new_old * before_->T_world_camera);
@@ -102,7 +106,7 @@ class LostCamera {
         last_seen_s_ = std::numeric_limits<double>::lowest();
     }
     // The camera was relocalised at this time. Tracking must still confirm the pose.
-    void Seen(double stamp_s) {
+    void SetRelocalised(double stamp_s) {
         last_seen_s_ = stamp_s;
         relocalised_ = true;
     }
@@ -157,11 +161,7 @@ class LostCamera {
     bool relocalised_ = false;
 };
 
-inline constexpr const char *kPoseUnconfirmed =
-                                "nothing confirms the pose found after tracking was lost",
-                            *kPlaceUnconfirmed =
-                                "nothing is fused until a second view confirms the place",
-                            *kPlaceConfirmed = "a second view confirms the place",
-                            *kPlaceRefuted = "other views show that this is another place";
+inline constexpr const char* kPoseUnconfirmed =
+    "nothing confirms the pose found after tracking was lost";
 
 }  // namespace tessera

@@ -37,7 +37,7 @@ void PagingStage::Plan() {
     const auto [first, last] = viewed_.Around(*T_world_camera_, kAhead_m);
     const double count =
         (last.x - first.x + 1.0) * (last.y - first.y + 1.0) * (last.z - first.z + 1.0);
-    const bool here_only = !expected_ || frame_ > expected_->frame;
+    const bool here_only = !expected_ || frame_ > expected_->until;
     if (here_only && count < static_cast<double>(away_.size())) {
         for (int z = first.z; z <= last.z; ++z)
             for (int y = first.y; y <= last.y; ++y)
@@ -49,7 +49,7 @@ void PagingStage::Plan() {
 }
 
 bool PagingStage::IsExpected(const BlockCoord& cube) const {
-    return expected_ && frame_ <= expected_->frame &&
+    return expected_ && frame_ <= expected_->until &&
            viewed_.Outside_m(expected_->T_world_camera, cube) <= 0;
 }
 

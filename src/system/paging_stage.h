@@ -81,7 +81,11 @@ class PagingStage {
         std::int64_t frame = 0;  // in which it was requested
     };
     struct Held {
-        std::int64_t frame = 0;
+        std::int64_t frame = 0;  // of the source
+        Eigen::Isometry3d T_world_camera;
+    };
+    struct Expected {
+        std::int64_t until = 0;  // as frame_
         Eigen::Isometry3d T_world_camera;
     };
 
@@ -117,11 +121,11 @@ class PagingStage {
     double step_m_ = 0;                                // between the last two poses
     // Store of a corrected map that the file does not have yet; else null.
     std::shared_ptr<const CubeScratch> store_;
-    std::optional<Held> expected_;  // until that frame
-    std::deque<Held> held_;         // by increasing frame
+    std::optional<Expected> expected_;
+    std::deque<Held> held_;  // by increasing frame
     ResidentCubes resident_;
     std::vector<BlockId> ids_;
-    std::int64_t frame_ = 0;
+    std::int64_t frame_ = 0;  // counts calls of BeginFrame
     bool paged_ = false, told_small_ = false, told_lost_ = false;
 };
 

@@ -71,4 +71,9 @@ class PlaceCheck {
     Eigen::Isometry3d T_map_seen_ = Eigen::Isometry3d::Identity();
 };
 
+inline constexpr const char *kPlaceUnconfirmed =
+                                "nothing is fused until a second view confirms the place",
+                            *kPlaceConfirmed = "a second view confirms the place",
+                            *kPlaceRefuted = "other views show that this is another place";
+
 }  // namespace tessera

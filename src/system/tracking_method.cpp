@@ -6,9 +6,7 @@
 
 namespace tessera {
 
-const char* ToString(TrackingMethod method) {
-    return kTrackingMethods[static_cast<std::size_t>(method)].name;
-}
+const char* ToString(TrackingMethod method) { return InfoOf(method).name; }
 
 std::vector<std::string> TrackingMethodNames() {
     std::vector<std::string> names;
@@ -77,7 +75,7 @@ std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, 
 
 std::unique_ptr<Tracker> Trackers::Make(TrackingMethod method) {
     const TrackJudge judge(config_.judge);
-    const bool colour = method == TrackingMethod::kSdf || method == TrackingMethod::kIcpRgb;
+    const bool colour = InfoOf(method).colour;
     switch (method) {
         case TrackingMethod::kSdf:
         case TrackingMethod::kSdfGeometric:

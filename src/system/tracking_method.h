@@ -23,23 +23,34 @@ namespace tessera {
 
 enum class TrackingMethod { kSdf, kSdfGeometric, kIcp, kIcpRgb };
 
-// What a person sees of a method: its name in commands and files, its button in the window and the
-// button's tooltip.
+// Whether a method also compares colours, and what a person sees of it: its name in commands and
+// files, its button in the window and the button's tooltip.
 struct TrackingMethodInfo {
     TrackingMethod method;
+    bool colour;
     const char *name, *label, *tip;
 };
 // All methods, in the order of the enumeration.
 inline constexpr std::array kTrackingMethods = {
-    TrackingMethodInfo{TrackingMethod::kSdf, "sdf", "SDF + colour",
+    TrackingMethodInfo{TrackingMethod::kSdf, true, "sdf", "SDF + colour",
                        "Signed distance field and intensities, [B14]"},
-    TrackingMethodInfo{TrackingMethod::kSdfGeometric, "sdf-geometric", "SDF",
+    TrackingMethodInfo{TrackingMethod::kSdfGeometric, false, "sdf-geometric", "SDF",
                        "Signed distance field only, [B13]"},
-    TrackingMethodInfo{TrackingMethod::kIcp, "icp", "ICP",
+    TrackingMethodInfo{TrackingMethod::kIcp, false, "icp", "ICP",
                        "Point-to-plane ICP against a predicted view, [D18]"},
-    TrackingMethodInfo{TrackingMethod::kIcpRgb, "icp-rgb", "ICP + colour",
+    TrackingMethodInfo{TrackingMethod::kIcpRgb, true, "icp-rgb", "ICP + colour",
                        "Point-to-plane ICP with intensities"},
 };
+static_assert(
+    [] {
+        for (std::size_t i = 0; i < kTrackingMethods.size(); ++i)
+            if (kTrackingMethods[i].method != static_cast<TrackingMethod>(i)) return false;
+        return true;
+    }(),
+    "the rows are in the order of the enumeration");
+constexpr const TrackingMethodInfo& InfoOf(TrackingMethod method) {
+    return kTrackingMethods[static_cast<std::size_t>(method)];
+}
 const char* ToString(TrackingMethod method);
 // The names, in the order of the enumeration.
 std::vector<std::string> TrackingMethodNames();
@@ -69,7 +80,7 @@ std::unique_ptr<ViewPredictor> MakePredictor(IcpTracker::Prediction prediction, 
 // thread only.
 class Trackers {
   public:
-    // `device` outlives the trackers. Null: everything runs on the CPU.
+    // `backend` outlives the trackers.
     Trackers(const TrackersConfig& config, const PinholeCamera& camera, Backend& backend);
 
     TrackingMethod method() const { return method_; }

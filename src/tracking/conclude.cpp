@@ -38,7 +38,10 @@ TrackResult Conclude(const TrackInput& input, const FoundPose& found, ResidualAr
     // Before anything is learnt from it.
     result.colour_rejected =
         input.place_known && a.has_intensity && model.Contradicts(sums, result.intensity_rms);
-    if (result.colour_rejected) return result;
+    if (result.colour_rejected) {
+        result.status = TrackStatus::kLost;
+        return result;
+    }
 
     const Eigen::Vector3d camera_local = found.T_local_camera.translation();
     const PoseTerm distances =

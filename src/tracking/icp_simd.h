@@ -1,6 +1,6 @@
 // The hot loop of the ICP tracker behind plain pointers: projective association with the predicted
 // view and the normal equations, over a range of points. Compiled twice (portable, AVX2);
-// icp_tracker.cpp selects the version. No Eigen here.
+// cpu_sums.cpp selects the version. No Eigen here.
 //
 // The set of associated points changes with the pose. To judge a step, energies are summed over the
 // residuals that exist at both poses.

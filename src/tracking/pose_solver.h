@@ -52,10 +52,6 @@ struct SolverOptions {
 PoseStep SolvePoseStep(const PoseSums& sums, const SolverOptions& options, double gain,
                        double offset, const Eigen::Vector3d& camera_local, double scene_depth_m);
 
-// Pose Hessian of the intensities, without alpha. The frame's brightness is eliminated by its Schur
-// complement, so that what brightness explains does not count for the pose. Positive semidefinite.
-Matrix6d IntensityHessian(const PoseSums& sums, double brightness_prior);
-
 // Hessian and gradient of one kind of residuals, for increments about the local origin, without
 // alpha.
 struct PoseTerm {

@@ -1,5 +1,5 @@
 // The hot loop of the SDF tracker behind plain pointers: sums the normal equations over a range of
-// points. Compiled twice (portable, AVX2); sdf_tracker.cpp selects the version. No Eigen here.
+// points. Compiled twice (portable, AVX2); cpu_sums.cpp selects the version. No Eigen here.
 #pragma once
 
 #include "tracking/normal_equations.h"

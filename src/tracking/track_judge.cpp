@@ -31,7 +31,6 @@ bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& re
         result.band_m = std::sqrt(sums[L::kBand] / sums[L::kDistanceWeight]);
     }
     result.intensity_rms = IntensityRms(sums);
-    result.status = TrackStatus::kLost;
     if (known <= 0)
         result.reason = "no depth where the map is known";
     else if (result.known_fraction < config_.min_known_fraction)
@@ -39,7 +38,9 @@ bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& re
             fmt::format("only {:.0f} % of the depth lies in the map", 100 * result.known_fraction);
     else if (result.inlier_fraction < config_.min_inlier_fraction)
         result.reason = Misfit(result);
-    return result.reason.empty();
+    if (result.reason.empty()) return true;
+    result.status = TrackStatus::kLost;
+    return false;
 }
 
 void TrackJudge::Judge(const TrackInput& input, TrackResult& result) const {
@@ -51,7 +52,7 @@ void TrackJudge::Judge(const TrackInput& input, TrackResult& result) const {
     constexpr double kLeast = 1e-6;  // a limit may be 0
     result.innovation_share = result.innovation_m / std::max(config_.good_innovation_m, kLeast) +
                               result.innovation_rad / std::max(config_.good_innovation_rad, kLeast);
-    result.status = Status(input, result);
+    SetStatus(input, result);
 }
 
 bool TrackJudge::Follows(const Eigen::Isometry3d& T_world_expected,
@@ -60,10 +61,10 @@ bool TrackJudge::Follows(const Eigen::Isometry3d& T_world_expected,
            RotationAngle(T_world_expected, T_world_camera) <= config_.good_innovation_rad;
 }
 
-TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) const {
+void TrackJudge::SetStatus(const TrackInput& input, TrackResult& result) const {
     const auto because = [&](TrackStatus status, std::string reason) {
+        result.status = status;
         result.reason = std::move(reason);
-        return status;
     };
     constexpr TrackStatus kPoor = TrackStatus::kPoor;
     const Eigen::Isometry3d jump = input.T_world_camera_last.inverse() * result.T_world_camera;
@@ -86,7 +87,7 @@ TrackStatus TrackJudge::Status(const TrackInput& input, TrackResult& result) con
         return because(kPoor, fmt::format("{:.2f} m and {:.2f} rad from the predicted pose",
                                           result.innovation_m, result.innovation_rad));
     }
-    return TrackStatus::kGood;
+    result.status = TrackStatus::kGood;
 }
 
 void TrackJudge::Config::Describe(ConfigParameters& p) {

@@ -34,7 +34,7 @@ class TrackJudge {
 
     // Fills in how well the frame fits the map. `sums` are the last ones of the finest level,
     // `points` is the number of points with depth there. Returns false, with status and reason, if
-    // the track is lost.
+    // the track is lost; else leaves the status.
     bool Fits(std::int64_t points, const PoseSums& sums, TrackResult& result) const;
     // Fills in status, reason and the remaining fields of a result that fits. Its pose and
     // uncertainty must be set.
@@ -48,7 +48,8 @@ class TrackJudge {
     double expected_within_m() const { return config_.expected_within_m; }
 
   private:
-    TrackStatus Status(const TrackInput& input, TrackResult& result) const;
+    // Also sets reason and `unexpected`.
+    void SetStatus(const TrackInput& input, TrackResult& result) const;
 
     Config config_;
 };

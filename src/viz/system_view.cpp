@@ -62,7 +62,6 @@ void SystemView::SetObjects(std::vector<MapObject> objects) {
 void SystemView::Say(const std::string& text) {
     messages_.push_back(text);
     if (messages_.size() > kMostMessages) messages_.pop_front();
-    ++messages_said_;
 }
 
 void SystemView::Add(FrameUpdate&& update, double now_s) {

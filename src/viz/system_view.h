@@ -56,7 +56,6 @@ class SystemView {
     const RecentFrames& recent() const { return recent_; }
     const History& history() const { return history_; }
     const std::deque<std::string>& messages() const { return messages_; }  // oldest first
-    std::uint64_t messages_said() const { return messages_said_; }
 
   private:
     bool TakeLabels(ViewerLink& link, double now_s);
@@ -68,7 +67,7 @@ class SystemView {
     double fps_ = 0;
     std::deque<double> arrivals_s_;
     std::vector<PathPoint> path_, truth_;
-    std::uint64_t path_identity_ = 1, images_taken_ = 0, messages_said_ = 0;
+    std::uint64_t path_identity_ = 1, images_taken_ = 0;
     ImageUpdate images_;
     LabelUpdate labels_;
     LabelClasses classes_;

@@ -124,9 +124,9 @@ TEST(LostCamera, CanReachWhatIsNearAndSoon) {
     EXPECT_FALSE(camera.CanReach({103, AlongX(3)}));      // too long ago
     camera.Move(AlongX(10));
     EXPECT_TRUE(camera.CanReach({100.6, AlongX(13.7)}));
-    camera.Reached({101.5, AlongX(14)});
+    camera.SetLastGood({101.5, AlongX(14)});
     EXPECT_TRUE(camera.CanReach({103, AlongX(15)}));
-    camera.Reached({100, AlongX(13)});
+    camera.SetLastGood({100, AlongX(13)});
     // A frame of the lost camera says nothing.
     TrackedFrame lost = TrackedAt(101);
     lost.report.track.status = TrackStatus::kLost;
@@ -162,7 +162,7 @@ TEST(LostCamera, WhereTheViewLeavesAMotionOpenARelocalisedPoseIsNotTrusted) {
     LostCamera camera(LoopConfig{}, 0.5);
     camera.Resume(100);
     EXPECT_EQ(camera.Judge(TrackedAt(110)), Verdict::kLost);
-    camera.Seen(110.1);
+    camera.SetRelocalised(110.1);
     EXPECT_EQ(camera.Judge(TrackedAt(110.2, true)), Verdict::kLost);
     EXPECT_TRUE(camera.relocalised());
     EXPECT_EQ(camera.Judge(TrackedAt(110.3)), Verdict::kFoundAgain);
