@@ -80,7 +80,7 @@ int Info(const InfoArguments& a) {
     if (!source.ok()) return Fail(source.status());
     PrintSource(source.value()->info());
     PrintFirstFrame(*source.value());
-    fmt::print("to scan it: tessera run {} --out DIR\n", Printable(a.source));
+    fmt::print("to scan it: tessera run {} --out DIR\n", Printable(ShellLine({a.source})));
     return kExitDone;
 }
 

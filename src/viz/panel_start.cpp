@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/printable.h"
-#include "report/page_text.h"
 #include "viz/start_state.h"
 #include "viz/widgets.h"
 
