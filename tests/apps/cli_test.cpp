@@ -133,6 +133,8 @@ TEST_F(Cli, InfoAndDoctorSayWhatThereIs) {
     EXPECT_NE(info.out.find("640 x 480"), std::string::npos) << info.out;
     EXPECT_NE(info.out.find("depth in"), std::string::npos) << info.out;
     EXPECT_NE(info.out.find("tessera run synthetic:desk --out DIR"), std::string::npos);
+    EXPECT_NE(Call("info synthetic:desk --set synthetic.frames=1").out.find("frames: 1 pair of"),
+              std::string::npos);
     std::ofstream(folder / "a.ply") << "ply";
     std::ofstream(folder / "2. OG (neu).ply") << "ply";
     const std::string spaced = "'" + (folder / "2. OG (neu).ply") + "'";

@@ -108,6 +108,9 @@ TEST(OpenSource, RecordingsOfOtherProgramsAreOpened) {
         EXPECT_EQ(message.find((folder / name) + ": "), 0u) << message;
         EXPECT_EQ(message.find("a source is"), std::string::npos) << message;
     }
+    if (!RecordingsAvailable()) GTEST_SKIP() << kRecordingsUnavailable;
+    EXPECT_EQ(OpenSource(folder / "b.mcap", RunConfig()).message(),
+              (folder / "b.mcap") + ": is not an .mcap file");
 }
 
 TEST(OpenSource, CamerasAreLive) {
