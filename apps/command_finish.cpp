@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "box_option.h"
 #include "command.h"
@@ -67,15 +68,19 @@ Status Finish(const FinishArguments& a) {
     if (!a.keep_triangles && !DecimationAvailable())
         fmt::print(stderr, "tessera: all triangles are kept: decimation is {}\n",
                    kDecimationUnavailable);
-    if (Status status = PrepareOutputFolder(a.out); !status.ok()) return status;
     const std::atomic<bool>& stop = StopOnSignal();
     const bool terminal = isatty(STDERR_FILENO) == 1;
+    // Made when the input was read, and before the work that it is for.
+    std::optional<Status> folder;
     const auto progress = [&](const char* step, double share) {
+        if (!folder) folder = PrepareOutputFolder(a.out);
+        if (!folder->ok()) return false;
         if (terminal) fmt::print(stderr, "\r{:3.0f} % {:<12}", 100 * share, step);
         return !stop.load();
     };
     const Result<FinishedModel> finished = FinishRun(request, progress);
     if (terminal) fmt::print(stderr, "\r{:<18}\r", "");
+    if (folder && !folder->ok()) return *folder;
     if (!finished.ok()) return finished.status();
     Print(finished.value().report);
     if (Status status = WriteFinishedModel(a.out, finished.value(), a.request.level); !status.ok())

@@ -93,7 +93,9 @@ int Help(const CLI::App& app, const HelpArguments& a) {
             return kExitDone;
         }
     if (!a.command.empty()) return Fail(UnknownCommand(app, a.command));
-    fmt::print("{}", app.help());
+    // app.help() would be that of this command.
+    fmt::print("{}",
+               app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
     return kExitDone;
 }
 

@@ -22,8 +22,8 @@ void PrintSource(const SourceInfo& info) {
     const PinholeCamera& c = info.camera;
     fmt::print("{}: {}\n", Printable(info.name), Printable(info.kind));
     if (info.frame_count >= 0)
-        fmt::print("frames: {} pairs of colour and depth, {:.3g} per second\n", info.frame_count,
-                   info.fps);
+        fmt::print("frames: {} pair{} of colour and depth, {:.3g} per second\n", info.frame_count,
+                   info.frame_count == 1 ? "" : "s", info.fps);
     fmt::print("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px{}\n", c.width, c.height,
                c.fx, c.fy, c.cx, c.cy, info.rectified ? ", lens distortion corrected" : "");
     fmt::print("ground truth: {}\n", info.has_truth ? "yes" : "no");
@@ -80,7 +80,7 @@ int Info(const InfoArguments& a) {
     if (!source.ok()) return Fail(source.status());
     PrintSource(source.value()->info());
     PrintFirstFrame(*source.value());
-    fmt::print("to scan it: tessera run {} --out DIR\n", Printable(a.source));
+    fmt::print("to scan it: tessera run {} --out DIR\n", Printable(ShellLine({a.source})));
     return kExitDone;
 }
 

@@ -38,9 +38,9 @@ void Print(const FloorPlan& plan) {
 }
 
 Status Plan(const PlanArguments& a) {
-    if (Status status = PrepareOutputFolder(a.out); !status.ok()) return status;
     const Result<FloorPlan> plan = PlanOfRun(a.request);
     if (!plan.ok()) return plan.status();
+    if (Status status = PrepareOutputFolder(a.out); !status.ok()) return status;
     Print(plan.value());
     std::filesystem::path name(a.request.input);
     if (name.filename().empty()) name = name.parent_path();

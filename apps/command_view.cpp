@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "command.h"
+#include "core/printable.h"
 #include "finished_model.h"
 #include "io/file.h"
 #include "io/image_io.h"
@@ -42,17 +43,26 @@ Result<Files> FindFiles(const ViewRequest& a) {
     Files files{a.path, a.trajectory, {}, {}};
     if (a.path.starts_with("synthetic:") || a.path.starts_with(kOpenniPrefix) ||
         a.path.ends_with(".oni") || a.path.ends_with(".klg"))
-        return Status::Error(fmt::format(
-            "{}: is a source, not a result; use: tessera run {} --view", a.path, a.path));
+        return Status::Error(
+            fmt::format("{}: is a source, not a result; use: tessera run {} --view", a.path,
+                        ShellLine({a.path})));
     if (!fs::exists(a.path, ignored)) return Status::Error(a.path + ": no such file or folder");
+    constexpr const char* kOpenIn = "Blender or f3d";
+    if (a.path.ends_with(".glb") || a.path.ends_with(".obj"))
+        return Status::Error(
+            fmt::format("{}: is for other programs: open it in {}", a.path, kOpenIn));
     if (!fs::is_directory(a.path, ignored)) return files;
     const fs::path folder = a.path;
     files.mesh = (folder / "mesh.ply").string();
+    for (const char* name : {"model.glb", "model.obj"})
+        if (!fs::exists(files.mesh, ignored) && fs::exists(folder / name, ignored))
+            return Status::Error(
+                fmt::format("{}: holds a finished model: open {} in {}", a.path, name, kOpenIn));
     if (!fs::exists(files.mesh, ignored))
         return Status::Error(
             fmt::format("{}: has no mesh.ply, so it is not the folder of a run; to view a source, "
                         "use: tessera run {} --view",
-                        a.path, a.path));
+                        a.path, ShellLine({a.path})));
     if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored)) {
         files.trajectory = (folder / "trajectory.txt").string();
         files.run = a.path;

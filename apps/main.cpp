@@ -35,6 +35,10 @@ int ReportParseError(const CLI::App& app, const CLI::ParseError& error) {
     // CLI11 only reports that a subcommand is missing.
     if (app.get_subcommands().empty() && !app.remaining().empty())
         return Fail(UnknownCommand(app, app.remaining().front()));
+    if (app.get_subcommands().empty() && error.get_name() == "RequiredError") {
+        fmt::print(stderr, "{}", app.help());
+        return kExitBadInput;
+    }
     std::string command = "tessera";
     for (const CLI::App* used = &app; !used->get_subcommands().empty();) {
         used = used->get_subcommands().front();

@@ -14,7 +14,8 @@ void AddSource(CLI::App& command, RunArguments& a) {
             "Folder (TUM RGB-D, ICL-NUIM, 7-Scenes, or images with a camera.yaml), "
             "openni2: (a depth camera; openni2:URI for a specific one), FILE.oni, "
             "FILE.klg, FILE.scan (the frames stored in a scan), .bag, .mcap, .db3, .mkv, .r3d or "
-            ".sens (docs/recordings.md), pipe:- or pipe:SOCKET "
+            ".sens, the folder of a phone app (Stray Scanner, Polycam; docs/recordings.md), pipe:- "
+            "or pipe:SOCKET "
             "(frames from another program), or synthetic:NAME (desk, room, flat, walk, "
             "corridor, floor, corner, wall, people, chair, door)")
         ->required();

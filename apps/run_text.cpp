@@ -77,9 +77,9 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
             n.degenerate);
     if (request.live)
         text += fmt::format(
-            "live: {} frames dropped for newer ones, {} tracked but not fused because mapping was "
+            "live: {} frame{} dropped for newer ones, {} tracked but not fused because mapping was "
             "busy\n",
-            n.dropped, n.unfused);
+            n.dropped, n.dropped == 1 ? "" : "s", n.unfused);
     if (request.live && 20 * (n.dropped + n.unfused) > n.frames)
         text += fmt::format(
             "note: frames came every {:.0f} ms, faster than this machine maps; larger voxels "

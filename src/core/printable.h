@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tessera {
 
@@ -14,5 +15,8 @@ std::string Printable(std::string_view text, std::size_t most_bytes = std::strin
 
 // For a value quoted in a message.
 inline constexpr std::size_t kQuotedBytes = 60;
+
+// The words as a POSIX shell reads them again, quoted where needed: for each command that is shown.
+std::string ShellLine(const std::vector<std::string>& words);
 
 }  // namespace tessera

@@ -56,10 +56,11 @@ Result<Layout> RecogniseLayout(const fs::path& folder) {
     const bool parent = Exists(folder / "seq-01");
     return Status::Error(fmt::format(
         "{}: {}", folder.string(),
-        parent ? "contains several sequences; give one of them, such as seq-01"
-               : "not a known sequence layout; expected rgb.txt and depth.txt (TUM), "
-                 "associations.txt (ICL-NUIM), "
-                 "frame-000000.depth.png (7-Scenes), or camera.yaml with depth/ and rgb/"));
+        parent ? std::string("contains several sequences; give one of them, such as seq-01")
+               : std::string(kUnknownLayout) +
+                     "; expected rgb.txt and depth.txt (TUM), "
+                     "associations.txt (ICL-NUIM), "
+                     "frame-000000.depth.png (7-Scenes), or camera.yaml with depth/ and rgb/"));
 }
 
 bool IsIclFolder(const fs::path& folder, Layout layout) {

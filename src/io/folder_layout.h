@@ -33,6 +33,9 @@ struct FolderLayout {
     std::vector<std::string> warnings;
 };
 
+// In the message about a folder that has none of the layouts below.
+inline constexpr const char* kUnknownLayout = "not a known sequence layout";
+
 // Layouts are tried in this order:
 // - TUM RGB-D: rgb.txt and depth.txt.
 // - associations.txt with lines "stamp file stamp file"; ICL-NUIM uses this. Stamps are kept as

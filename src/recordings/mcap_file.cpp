@@ -170,7 +170,7 @@ MessageFileResult OpenMcapFile(const std::string& path) {
     std::uint8_t magic[sizeof(kMcapMagic)]{};
     const Status read = file.value().ReadAt(0, magic);
     if (!read.ok() || std::memcmp(magic, kMcapMagic, sizeof(magic)) != 0)
-        return Status::Error(path + ": is no .mcap file");
+        return Status::Error(path + ": is not an .mcap file");
     return std::unique_ptr<MessageFile>(std::make_unique<McapFile>(std::move(file.value())));
 }
 

@@ -98,7 +98,7 @@ std::vector<PhoneDepth> FindPhoneDepth(const std::string& folder, const std::str
         without += found.back().confidence.empty() ? 1 : 0;
     }
     if (without < found.size())
-        info.notes.push_back("depth of the lowest of three confidences is removed");
+        info.notes.push_back("low-confidence depth (the lowest of three levels) is ignored");
     if (without > 0)
         info.warnings.push_back(fmt::format(
             "{} of {} depth images have no confidence image; all of their depth is used", without,

@@ -53,10 +53,11 @@ void SetStrayStamps(const std::string& folder, const StrayVideo& video,
         return;
     }
     info.fps = video.fps() > 0 ? video.fps() : kStrayFps;
-    info.notes.push_back(
-        fmt::format("odometry.csv has no increasing time stamp for each depth image; {:g} frames "
-                    "per second are assumed",
-                    info.fps));
+    std::error_code ignored;
+    const bool there = std::filesystem::exists(folder + "/odometry.csv", ignored);
+    info.notes.push_back(fmt::format(
+        "odometry.csv {}; {:g} frames per second are assumed",
+        there ? "has no increasing time stamp for each depth image" : "is missing", info.fps));
     info.pairs.clear();
     for (const PhoneDepth& frame : frames) {
         const double stamp_s = static_cast<double>(frame.number) / info.fps;

@@ -33,7 +33,7 @@ Result<ZipFile> ZipFile::Open(const std::string& path) {
     zip_t* archive = zip_open(path.c_str(), ZIP_RDONLY, &code);
     if (archive == nullptr)
         return Status::Error(
-            fmt::format("{}: is no ZIP archive, or it is damaged ({}); copy or "
+            fmt::format("{}: is not a ZIP archive, or it is damaged ({}); copy or "
                         "export it again",
                         path, ZipErrorText(code)));
     return ZipFile(archive);

@@ -51,23 +51,6 @@ std::string Base64(std::span<const std::uint8_t> bytes) {
     return text;
 }
 
-std::string ShellLine(const std::vector<std::string>& words) {
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+-@%";
-    std::string line;
-    for (const std::string& word : words) {
-        if (!line.empty()) line += ' ';
-        if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-            line += word;
-            continue;
-        }
-        line += '\'';
-        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        line += '\'';
-    }
-    return line;
-}
-
 std::string FillTemplate(std::string_view text,
                          const std::vector<std::pair<std::string, std::string>>& values) {
     std::string filled;

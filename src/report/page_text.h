@@ -20,9 +20,6 @@ std::string EscapeScriptJson(std::string_view json);
 
 std::string Base64(std::span<const std::uint8_t> bytes);
 
-// The words as a POSIX shell reads them again, quoted where needed.
-std::string ShellLine(const std::vector<std::string>& words);
-
 // Replaces each {{name}} of a template. Values are not searched again, so they may contain braces.
 // A name without a value is a bug.
 std::string FillTemplate(std::string_view text,

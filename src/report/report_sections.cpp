@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/path_length.h"
+#include "core/printable.h"
 #include "report/page_parts.h"
 #include "report/page_text.h"
 #include "report/report_charts.h"

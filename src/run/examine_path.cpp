@@ -15,7 +15,8 @@ namespace {
 std::string DescribeSource(const SourceInfo& info) {
     std::string text = "A recording: " + info.kind;
     if (info.frame_count >= 0)
-        text += fmt::format(", {} pairs of colour and depth", info.frame_count);
+        text += fmt::format(", {} pair{} of colour and depth", info.frame_count,
+                            info.frame_count == 1 ? "" : "s");
     text += fmt::format(", {} x {}", info.camera.width, info.camera.height);
     if (!info.camera_known) text += ", camera unknown";
     if (info.has_truth) text += ", with the true path";

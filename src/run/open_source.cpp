@@ -7,12 +7,14 @@
 #include <filesystem>
 
 #include "io/corrected_depth.h"
+#include "io/folder_layout.h"
 #include "io/klg_source.h"
 #include "io/openni_devices.h"
 #include "io/openni_source.h"
 #include "io/pipe_source.h"
 #include "recordings/open_recording.h"
 #include "run/other_files.h"
+#include "run/wrong_folder.h"
 #include "scan/scan_source.h"
 
 namespace tessera {
@@ -33,6 +35,16 @@ std::string NameProblem(const std::string& name) {
     return scheme + ": is not a kind of source";
 }
 
+Result<std::unique_ptr<FrameSource>> OpenFolder(const std::string& name,
+                                                const FolderSourceConfig& config) {
+    if (const std::string above = AboveRecording(name); !above.empty())
+        return Status::Error(name + ": " + above);
+    Result<std::unique_ptr<FrameSource>> opened = OpenFolderSource(name, config);
+    if (opened.ok() || opened.message().find(kUnknownLayout) == std::string::npos) return opened;
+    const std::string wrong = DescribeWrongFolder(name);
+    return wrong.empty() ? std::move(opened) : Status::Error(name + ": " + wrong);
+}
+
 Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const RunConfig& config) {
     if (name.starts_with("synthetic:")) return OpenSyntheticScene(name, config.synthetic);
     if (name.starts_with(kOpenniPrefix) || name.ends_with(".oni"))
@@ -51,7 +63,7 @@ Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const R
         return Status::Error(fmt::format("{}: is no source of frames: {}", name, other));
     if (!std::filesystem::is_directory(name, ignored))
         return Status::Error(fmt::format("{}: is a file; {}", name, kSources));
-    return OpenFolderSource(name, config.source);
+    return OpenFolder(name, config.source);
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 #include "run/scanned.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+
 #include "io/mesh_io.h"
 #include "run/scan_export.h"
 #include "scan/shown_scan.h"
@@ -7,6 +11,10 @@
 namespace tessera {
 
 Result<Scanned> ReadRunFolder(const std::string& folder) {
+    for (const char* name : {"mesh.ply", "trajectory.txt"})
+        if (std::error_code ignored; !std::filesystem::exists(folder + "/" + name, ignored))
+            return Status::Error(fmt::format(
+                "{}: has no {}; give the folder that tessera run --out wrote", folder, name));
     Result<TriangleMesh> mesh = ReadPly(folder + "/mesh.ply");
     if (!mesh.ok()) return mesh.status();
     Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");

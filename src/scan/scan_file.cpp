@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "core/input_file.h"
+#include "core/printable.h"
 #include "io/file.h"
 
 namespace tessera {
@@ -80,7 +81,7 @@ Status FinishEnd(const std::string& path) {
 Status DamagedScan(const std::string& path, const std::string& why) {
     return Status::Error(fmt::format(
         "{}: damaged ({}); recover the intact part with: tessera scan repair {} --out NEW.scan",
-        path, why, path));
+        path, why, ShellLine({path})));
 }
 
 Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
@@ -200,7 +201,7 @@ Status ScanFile::CheckHeader() {
         return Status::Error(fmt::format(
             "{}: has format version {}, this program reads up to {}; use a newer tessera (or, if "
             "the file is damaged: tessera scan repair {} --out NEW.scan)",
-            path(), version.value(), kScanVersion, path()));
+            path(), version.value(), kScanVersion, ShellLine({path()})));
     if (version.value() < 1) return DamagedScan(path(), "no format version");
     version_ = version.value();
     std::string tables;

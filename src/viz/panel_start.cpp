@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/printable.h"
-#include "report/page_text.h"
 #include "viz/start_state.h"
 #include "viz/widgets.h"
 
@@ -98,7 +97,7 @@ void DrawCommand(StartState& state) {
         ImGui::PushFont(SmallFont());
         ImGui::PushStyleColor(ImGuiCol_Text, palette::kDim);
         ImGui::PushTextWrapPos(0);
-        ImGui::TextUnformatted(words.empty() ? "Here stands the command that does the same."
+        ImGui::TextUnformatted(words.empty() ? "The equivalent command appears here."
                                              : Printable(line).c_str());
         ImGui::PopTextWrapPos();
         ImGui::PopStyleColor();

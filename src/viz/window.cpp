@@ -42,7 +42,8 @@ GLFWwindow* CreateWithContext(int api, const std::string& title, int width, int 
 
 Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width, int height,
                                              double scale) {
-    if (!glfwInit()) return Status::Error("no display: set DISPLAY or run without --view");
+    if (!glfwInit())
+        return Status::Error("a window needs a display, and there is none: set DISPLAY");
     std::unique_ptr<Window> window(new Window);
     if (Status status = window->Create(title, width, height, scale); !status.ok()) return status;
     return window;
@@ -69,7 +70,7 @@ Status Window::Create(const std::string& title, int width, int height, double sc
     if (!window_)
         return Status::Error(
             fmt::format("the display cannot open an OpenGL 3.3 window ({}): install libegl1, "
-                        "libgl1 and libgl1-mesa-dri, or run without --view",
+                        "libgl1 and libgl1-mesa-dri",
                         LastError()));
     HandleDisplayLoss();
     glfwMakeContextCurrent(window_);

@@ -48,7 +48,10 @@ TEST_F(Cli, AMeshWithoutLabelsIsNotShownByLabel) {
 }
 
 TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
-    ExpectRefused("", "subcommand");
+    const Outcome alone = Call("");
+    EXPECT_EQ(alone.exit_code, 2);
+    EXPECT_EQ(alone.err, Call("help").out);
+    ExpectRefused("eval", "subcommand");
     ExpectRefused("rnu synthetic:desk", "did you mean run?");
     ExpectRefused("xxxxxx", "unknown command or option 'xxxxxx' (tessera -h lists them)");
     ExpectRefused("run realsense:", "realsense: is not a kind of source; cameras without OpenNI2");
@@ -77,6 +80,19 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
     ExpectRefused("view /no/such/run", "/no/such/run");
     ExpectRefused("view synthetic:desk", "tessera run synthetic:desk --view");
     ExpectRefused("view " + folder.path(), "mesh.ply");
+    for (const char* command : {"plan ", "finish "}) {
+        ExpectRefused(command + folder.path() + " --out " + (folder / "new"),
+                      "has no mesh.ply; give the folder that tessera run --out wrote");
+        ExpectRefused(command + std::string("/no/such/run --out ") + (folder / "new"),
+                      "/no/such/run");
+        EXPECT_FALSE(std::filesystem::exists(folder / "new")) << command;
+    }
+    for (const char* name : {"model.obj", "model.glb"}) {
+        std::ofstream(folder / name) << "x";
+        ExpectRefused("view " + (folder / name), "open it in Blender or f3d");
+        ExpectRefused("view " + folder.path(),
+                      std::string("holds a finished model: open ") + name + " in Blender or f3d");
+    }
     ExpectRefused("sweep alpha synthetic:desk --values 1:0:1", "--values");
     ExpectRefused("sweep alpha synthetic:desk --values 0:1:0", "--values");
     ExpectRefused("info /no/such/folder", "/no/such/folder");
@@ -117,7 +133,12 @@ TEST_F(Cli, InfoAndDoctorSayWhatThereIs) {
     EXPECT_NE(info.out.find("640 x 480"), std::string::npos) << info.out;
     EXPECT_NE(info.out.find("depth in"), std::string::npos) << info.out;
     EXPECT_NE(info.out.find("tessera run synthetic:desk --out DIR"), std::string::npos);
+    EXPECT_NE(Call("info synthetic:desk --set synthetic.frames=1").out.find("frames: 1 pair of"),
+              std::string::npos);
     std::ofstream(folder / "a.ply") << "ply";
+    std::ofstream(folder / "2. OG (neu).ply") << "ply";
+    const std::string spaced = "'" + (folder / "2. OG (neu).ply") + "'";
+    EXPECT_NE(Call("info " + spaced).out.find("tessera view " + spaced), std::string::npos);
     const Outcome mesh = Call("info " + (folder / "a.ply"));
     EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
     EXPECT_NE(mesh.out.find("a mesh; tessera view"), std::string::npos) << mesh.out;

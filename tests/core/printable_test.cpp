@@ -36,5 +36,10 @@ TEST(Printable, CutsLongText) {
     EXPECT_EQ(Printable(std::string(1000, '\x01'), 10), "\\x01\\x01...");
 }
 
+TEST(Printable, ShellLineQuotesWhereNeeded) {
+    EXPECT_EQ(ShellLine({"tessera", "run", "a b", "", "it's", "$HOME", "x=1", "2. OG (neu)"}),
+              "tessera run 'a b' '' 'it'\\''s' '$HOME' x=1 '2. OG (neu)'");
+}
+
 }  // namespace
 }  // namespace tessera

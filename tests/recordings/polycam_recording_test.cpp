@@ -95,8 +95,8 @@ TEST_F(PolycamFolders, ImagesCalibrationAndStampsAreExact) {
     EXPECT_EQ(info.colour_camera.pinhole, camera);
     EXPECT_EQ(info.depth_camera.pinhole, ScaledTo(camera, 32, 24));
     EXPECT_EQ(info.depth_camera.depth_scale, 1000);
-    EXPECT_EQ(info.notes,
-              std::vector<std::string>{"depth of the lowest of three confidences is removed"});
+    EXPECT_EQ(info.notes, std::vector<std::string>{
+                              "low-confidence depth (the lowest of three levels) is ignored"});
     EXPECT_EQ(info.warnings, std::vector<std::string>{kPolycamSlow});
     EXPECT_NEAR(info.fps, 2, 1e-9);
     ASSERT_EQ(info.pairs.size(), 3u);

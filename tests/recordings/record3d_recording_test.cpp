@@ -200,7 +200,7 @@ TEST_F(Record3d, DamagedFramesAreReportedAlone) {
 TEST_F(Record3d, WhatIsNoRecordingIsRefusedByName) {
     EXPECT_NE(OpenRecord3d(path).message().find("a.r3d: no such file"), std::string::npos);
     folder.WriteText("a.r3d", "no archive");
-    ExpectRefused(OpenRecord3d(path), "is no ZIP archive, or it is damaged (Not a zip archive)");
+    ExpectRefused(OpenRecord3d(path), "is not a ZIP archive, or it is damaged (Not a zip archive)");
     files["other"] = {};
     ExpectRefused(Reopen(), "has no file 'metadata'");
     files["metadata"] = R3dBytesOf("{]");

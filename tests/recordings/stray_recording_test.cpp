@@ -35,8 +35,8 @@ TEST_F(StrayFolders, ImagesCalibrationAndStampsAreExact) {
     EXPECT_EQ(info.colour_camera.pinhole, camera);
     EXPECT_EQ(info.depth_camera.pinhole, ScaledTo(camera, 32, 24));
     EXPECT_EQ(info.depth_camera.depth_scale, 1000);
-    EXPECT_EQ(info.notes,
-              std::vector<std::string>{"depth of the lowest of three confidences is removed"});
+    EXPECT_EQ(info.notes, std::vector<std::string>{
+                              "low-confidence depth (the lowest of three levels) is ignored"});
     EXPECT_EQ(info.warnings, std::vector<std::string>{});
     ASSERT_EQ(info.pairs.size(), 4u);
     EXPECT_NEAR(info.fps, 50, 1e-6);
@@ -130,8 +130,12 @@ TEST_F(StrayFolders, WithoutGoodStampsTheVideosRateIsTaken) {
         const auto recording = Opened();
         EXPECT_DOUBLE_EQ(recording->info().pairs[2].depth_stamp_s, 2 / 60.0) << odometry;
         EXPECT_DOUBLE_EQ(recording->info().fps, 60);
-        EXPECT_EQ(recording->info().notes.size(), 2u);
+        ASSERT_EQ(recording->info().notes.size(), 2u);
+        EXPECT_EQ(recording->info().notes[1].find("odometry.csv has no increasing"), 0u);
     }
+    std::filesystem::remove(folder.Path("odometry.csv"));
+    EXPECT_EQ(Opened()->info().notes[1],
+              "odometry.csv is missing; 60 frames per second are assumed");
     // Other columns, more lines, and lines that end as on Windows.
     folder.WriteText("odometry.csv", "frame,fx,timestamp\r\n000002,1,9\r\n0,1,7\r\n1,1,8\r\n3,1,0");
     EXPECT_EQ(Opened()->info().pairs[2].depth_stamp_s, 9);

@@ -34,11 +34,6 @@ TEST(PageText, Base64) {
     EXPECT_EQ(of("\xfb\xff\xbf"), "+/+/");
 }
 
-TEST(PageText, ShellLineQuotesWhereNeeded) {
-    EXPECT_EQ(ShellLine({"tessera", "run", "a b", "", "it's", "$HOME", "x=1"}),
-              "tessera run 'a b' '' 'it'\\''s' '$HOME' x=1");
-}
-
 TEST(PageText, TemplateValuesAreNotSearchedAgain) {
     EXPECT_EQ(FillTemplate("a {{x}} b {{y}}{{x}} {", {{"x", "{{y}}"}, {"y", "2"}}),
               "a {{y}} b 2{{y}} {");

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "report/page_text.h"
+#include "core/printable.h"
 #include "support/temp_folder.h"
 #include "viz/driven_window.h"
 #include "viz/recent_paths.h"

@@ -17,7 +17,7 @@ TEST(ViewerWithoutDisplay, SaysSoInOneLine) {
     ViewerLink link;
     const auto viewer = Viewer::Open(link, {});
     ASSERT_FALSE(viewer.ok());
-    EXPECT_EQ(viewer.message(), "no display: set DISPLAY or run without --view");
+    EXPECT_EQ(viewer.message(), "a window needs a display, and there is none: set DISPLAY");
     setenv("DISPLAY", ":987654", 1);
     EXPECT_EQ(Viewer::Open(link, {}).message(), viewer.message());
 }
