@@ -84,6 +84,18 @@ std::optional<Eigen::Isometry3d> BetweenStreams(const RosContents& contents,
     return T_colour_device->second * T_depth_device->second.inverse();
 }
 
+void NoteUnused(const RosContents& contents, const RosChoice& choice, RecordingInfo& info) {
+    constexpr int kMostNamed = 20;
+    std::string names;
+    int unused = 0;
+    for (const RosStream& stream : contents.streams)
+        if (&stream != choice.depth && &stream != choice.colour && ++unused <= kMostNamed)
+            names += (names.empty() ? "" : ", ") + stream.topic;
+    if (unused > kMostNamed) names += fmt::format(" and {} more", unused - kMostNamed);
+    if (unused > 0) info.notes.push_back(fmt::format("also holds images, not used: {}", names));
+    info.notes.insert(info.notes.end(), contents.notes.begin(), contents.notes.end());
+}
+
 }  // namespace
 
 RosChoice ChooseRosStreams(const RosContents& contents) {
@@ -115,6 +127,7 @@ RosChoice ChooseRosStreams(const RosContents& contents) {
 
 void FindRosCameras(const RosContents& contents, const RosChoice& choice, RecordingInfo& info) {
     info.depth_camera = CalibrationOf(contents, *choice.depth, info);
+    NoteUnused(contents, choice, info);
     if (choice.colour == nullptr) {
         info.colour_camera = info.depth_camera;
         info.notes.push_back(fmt::format("depth from {}; no colour images", choice.depth->topic));

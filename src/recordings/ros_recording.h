@@ -8,7 +8,11 @@
 
 namespace tessera {
 
-// Whether the folder is a ROS 2 recording: it holds a .mcap or .db3 file.
+// A file that rosbag2 has compressed as a whole: .mcap.zstd or .db3.zstd. It is not read; the error
+// says what to do.
+bool IsCompressedRosFile(const std::string& path);
+
+// Whether the folder is a ROS 2 recording: it holds a .mcap or .db3 file, perhaps compressed.
 bool IsRosFolder(const std::string& path);
 
 // Images are paired by the stamps in their headers, less than max_pair_gap_s apart (0: PairGap).
