@@ -134,6 +134,12 @@ void FolderSourceConfig::Describe(ConfigParameters& p) {
     p.Add("swap_red_blue", swap_red_blue,
           "for .klg logs: some loggers store the colour channels in the opposite order; turn it on "
           "if faces look blue");
+    p.Add(
+        "depth_topic", depth_topic,
+        "topic of a ROS recording's depth images; empty chooses by itself; tessera info names the "
+        "topics");
+    p.Add("colour_topic", colour_topic,
+          "topic of a ROS recording's colour images; empty chooses by itself");
 }
 
 Status FolderSourceConfig::Validate() const {

@@ -27,7 +27,8 @@ RecordingResult WithoutConfig(const std::string& path, const FolderSourceConfig&
 }
 
 RecordingResult OpenRos(const std::string& path, const FolderSourceConfig& config) {
-    return OpenRosRecording(path, config.max_pair_gap_s, config.colour_delay_s);
+    return OpenRosRecording(path, config.max_pair_gap_s, config.colour_delay_s,
+                            {config.depth_topic, config.colour_topic});
 }
 
 constexpr std::array kRecordingKinds{

@@ -9,7 +9,6 @@
 #include "io/stamp_pairing.h"
 #include "recordings/endings.h"
 #include "recordings/recorded_stamps.h"
-#include "recordings/ros_choice.h"
 #include "recordings/ros_images.h"
 
 namespace tessera {
@@ -148,7 +147,7 @@ bool IsRosFolder(const std::string& path) {
 }
 
 RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
-                                 double colour_delay_s) {
+                                 double colour_delay_s, const RosTopics& wanted) {
     const std::vector<std::string> names = RosFilesAt(path);
     MessageFiles files;
     for (const std::string& name : names) {
@@ -157,7 +156,9 @@ RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
         files.push_back(std::move(file.value()));
     }
     RosContents contents = ScanRosFiles(files);
-    const RosChoice choice = ChooseRosStreams(contents);
+    const Result<RosChoice> chosen = ChooseRosStreams(contents, wanted);
+    if (!chosen.ok()) return Status::Error(path + ": " + chosen.message());
+    const RosChoice& choice = chosen.value();
     std::vector<StampPair> pairs;
     if (choice.depth != nullptr) pairs = PairsOf(choice, max_pair_gap_s, colour_delay_s);
     if (pairs.empty()) {

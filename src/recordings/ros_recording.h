@@ -5,6 +5,7 @@
 #include <string>
 
 #include "recordings/recording.h"
+#include "recordings/ros_choice.h"
 
 namespace tessera {
 
@@ -16,8 +17,8 @@ bool IsCompressedRosFile(const std::string& path);
 bool IsRosFolder(const std::string& path);
 
 // Images are paired by the stamps in their headers, less than max_pair_gap_s apart (0: PairGap).
-// `colour_delay_s`: colour was taken so much later than its stamps say.
+// `colour_delay_s`: colour was taken so much later than its stamps say. `wanted`: which topics.
 RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
-                                 double colour_delay_s = 0);
+                                 double colour_delay_s = 0, const RosTopics& wanted = {});
 
 }  // namespace tessera

@@ -118,8 +118,18 @@ TEST(RosRecording, NamesTheTopicsThatAreNotUsed) {
     const std::vector<std::string>& notes = recording.value()->info().notes;
     ASSERT_GE(notes.size(), 2u);
     EXPECT_EQ(notes[0],
-              "also holds images, not used: /rear/depth/image_raw, /rear/color/image_raw");
+              "also holds images, not used: /rear/depth/image_raw, /rear/color/image_raw "
+              "(source.depth_topic, source.colour_topic)");
     EXPECT_EQ(notes[1], "/odd/image_raw: images in the encoding 'abcd' are not read");
+    recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s, 0,
+                                 {"/rear/depth/image_raw", "/rear/color/image_raw"});
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    EXPECT_EQ(recording.value()->info().pairs.size(), 1u);
+    EXPECT_EQ(OpenRosRecording(folder.Path("a.mcap"), kRosGap_s, 0, {"/rear/color/image_raw", ""})
+                  .message(),
+              folder.Path("a.mcap") +
+                  ": source.depth_topic: there are no depth images in /rear/color/image_raw; there "
+                  "are: /cam/depth/image_raw, /rear/depth/image_raw");
 }
 
 // Opens the file and loads all images, with four bits turned over in the part from `first` on.
