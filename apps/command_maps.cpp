@@ -1,5 +1,6 @@
 // tessera maps: maps for robots of a scan file.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 
@@ -38,6 +39,11 @@ Result<Level> LevelOf(const std::string& path) {
 
 Status Maps(const MapsArguments& a) {
     RobotMaps maps = a.maps;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(a.scan, ignored))
+        return Status::Error(a.scan +
+                             ": is a folder; maps need a scan: run with --scan FILE and give "
+                             "that file");
     const auto box = BoxOf(a.box);
     if (!box.ok()) return box.status();
     maps.box_m = box.value();

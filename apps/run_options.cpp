@@ -57,8 +57,10 @@ void AddFrames(CLI::App& command, RunArguments& a) {
                     "Threads for parallel loops, 0 = one per core; sets run.threads")
         ->check(CLI::Range(0, 256));
     command
-        .add_option("--poses", a.request.poses_file,
-                    "Do not track; fuse at the poses of this TUM trajectory (seconds, metres)")
+        .add_option(
+            "--poses", a.request.poses_file,
+            "Do not track; fuse at the poses of this TUM trajectory (stamps in seconds, metres; "
+            "of the optical camera: x right, y down, z forward)")
         ->type_name("FILE");
     command
         .add_option("--mode", a.mode,

@@ -14,8 +14,9 @@ std::string AteText(const AteResult& ate) {
     std::string text = fmt::format(
         "ATE RMSE {:.4f} m (mean {:.4f}, median {:.4f}, max {:.4f}), {} pairs, SE(3) alignment "
         "without scale over all "
-        "frames, {:.1f} % tracked\n",
-        e.rmse, e.mean, e.median, e.max, ate.pairs.size(), 100 * ate.tracked_fraction);
+        "frames, {:.1f} % {}\n",
+        e.rmse, e.mean, e.median, e.max, ate.pairs.size(), 100 * ate.tracked_fraction,
+        ate.of_frames ? "of the frames tracked" : "of the poses have a reference");
     if (!ate.warning.empty()) text += "note: " + ate.warning + "\n";
     return text;
 }

@@ -3,7 +3,7 @@ from .document import number
 
 
 class Run:
-    """Runs `job` on construction. ATE as in `tessera eval ate`; nan if too little was tracked."""
+    """Runs `job` on construction. ATE as `tessera run` prints it; nan if too little was tracked."""
 
     def __init__(self, bench, job):
         self.folder = bench.run(job)
@@ -30,6 +30,6 @@ STAND_IN_NOTE = ("A stand-in is a different scene from the paper's, so its ratio
                  "magnitude agrees. If the TUM RGB-D sequence is in `--tum`, the row is measured on it.")
 PART_NOTE = ("A recording of which only a part is here says so in \"measured on\". The papers' figures are for the whole "
              "recording.")
-ATE_PROTOCOL = ("ATE RMSE in metres, SE(3) alignment without scale, pairs within 0.02 s, all tracked frames; lockstep, "
-                "so every frame is used and the figures are the same on every run and for any number of threads; no "
-                "loop closure unless stated.")
+ATE_PROTOCOL = ("ATE RMSE in metres, SE(3) alignment without scale, ground truth interpolated to each frame's time, all "
+                "tracked frames; lockstep, so every frame is used and the figures are the same on every run and for any "
+                "number of threads; no loop closure unless stated.")

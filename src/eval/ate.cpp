@@ -30,7 +30,8 @@ Result<AteResult> EvaluateAte(const std::vector<StampedPose>& reference,
     }
     result.error_m = Summarise(std::move(errors));
     const auto poses = static_cast<double>(estimate.size());
-    result.tracked_fraction = options.frames && *options.frames > 0
+    result.of_frames = options.frames && *options.frames > 0;
+    result.tracked_fraction = result.of_frames
                                   ? std::min(1.0, poses / static_cast<double>(*options.frames))
                                   : static_cast<double>(result.pairs.size()) / poses;
     return result;

@@ -31,6 +31,7 @@ struct AteResult {
     // Number of estimated poses divided by the number of frames in the run, if that is known.
     // Otherwise the share of estimated poses that have a reference.
     double tracked_fraction = 0;
+    bool of_frames = false;  // which of the two it is
     Eigen::Isometry3d T_reference_estimate = Eigen::Isometry3d::Identity();
     std::vector<Pair> pairs;  // in time order
     std::string warning;      // see Alignment

@@ -72,10 +72,15 @@ Result<RpeResult> EvaluateRpe(const std::vector<StampedPose>& reference,
 }
 
 std::string RpeJson(const RpeResult& result) {
-    const nlohmann::ordered_json json = {
-        {"rpe_trans_rmse_m", result.trans_m.rmse},
-        {"rpe_rot_rmse_deg", result.rot_rad.rmse * 180 / std::numbers::pi},
-        {"delta_s", result.delta_s}};
+    constexpr double degrees = 180 / std::numbers::pi;
+    const nlohmann::ordered_json json = {{"rpe_trans_rmse_m", result.trans_m.rmse},
+                                         {"rpe_trans_median_m", result.trans_m.median},
+                                         {"rpe_trans_max_m", result.trans_m.max},
+                                         {"rpe_rot_rmse_deg", result.rot_rad.rmse * degrees},
+                                         {"rpe_rot_median_deg", result.rot_rad.median * degrees},
+                                         {"rpe_rot_max_deg", result.rot_rad.max * degrees},
+                                         {"pairs", result.pairs.size()},
+                                         {"delta_s", result.delta_s}};
     return json.dump(2) + "\n";
 }
 

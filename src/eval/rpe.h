@@ -38,7 +38,8 @@ Result<RpeResult> EvaluateRpe(const std::vector<StampedPose>& reference,
                               const std::vector<StampedPose>& estimate,
                               const RpeOptions& options = {});
 
-// {"rpe_trans_rmse_m", "rpe_rot_rmse_deg", "delta_s"}
+// {"rpe_trans_rmse_m", "rpe_trans_median_m", "rpe_trans_max_m", "rpe_rot_rmse_deg",
+// "rpe_rot_median_deg", "rpe_rot_max_deg", "pairs", "delta_s"}
 std::string RpeJson(const RpeResult& result);
 
 }  // namespace tessera

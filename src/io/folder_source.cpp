@@ -24,7 +24,7 @@ class FolderSource : public FrameSource {
         info_.frame_count = static_cast<std::int64_t>(layout_.frames.size());
         info_.fps = layout_.calibration.fps;
         info_.depth_units_per_m = layout_.calibration.depth_scale;
-        info_.rectified = rectifier_.active();
+        info_.rectified = rectifier_.corrects_lens();
         info_.has_truth =
             std::any_of(layout_.frames.begin(), layout_.frames.end(),
                         [](const FolderFrame& frame) { return frame.T_world_camera.has_value(); });
@@ -134,6 +134,12 @@ void FolderSourceConfig::Describe(ConfigParameters& p) {
     p.Add("swap_red_blue", swap_red_blue,
           "for .klg logs: some loggers store the colour channels in the opposite order; turn it on "
           "if faces look blue");
+    p.Add(
+        "depth_topic", depth_topic,
+        "topic of a ROS recording's depth images; empty chooses by itself; tessera info names the "
+        "topics");
+    p.Add("colour_topic", colour_topic,
+          "topic of a ROS recording's colour images; empty chooses by itself");
 }
 
 Status FolderSourceConfig::Validate() const {

@@ -19,7 +19,9 @@ struct FolderSourceConfig {
     bool rectify = true;         // correct the lens distortion given in camera.yaml
     double depth_scale = 0;      // stored depth value of one metre; 0 = from the camera file
     bool swap_red_blue = false;  // for .klg logs
-    double colour_delay_s = 0;   // colour was taken so much later than its time stamps say
+    // Of a ROS recording; empty: chosen by itself.
+    std::string depth_topic = {}, colour_topic = {};
+    double colour_delay_s = 0;  // colour was taken so much later than its time stamps say
     // Overrides the camera file's pinhole. Set by the program; not a configuration key. Its image
     // size is ignored, and the camera file's lens distortion still applies.
     std::optional<PinholeCamera> camera = std::nullopt;

@@ -53,11 +53,13 @@ Rectifier::Rectifier(const CameraCalibration& calibration, const Options& option
     if (calibration.colour) {
         ColourCamera colour = *calibration.colour;
         if (!options.correct_distortion) colour.distortion = {};
+        corrects_lens_ = !colour.distortion.IsZero();
         registration_.emplace(colour, calibration.pinhole);
     }
     brighter_ = Brightening(colour_size(), calibration.vignetting);
     const LensDistortion& d = calibration.distortion;
     if (d.IsZero() || !options.correct_distortion) return;
+    corrects_lens_ = true;
     const PinholeCamera& p = calibration.pinhole;
     const cv::Matx33d intrinsics(p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1);
     const cv::Vec<double, 5> coefficients(d.k1, d.k2, d.p1, d.p2, d.k3);

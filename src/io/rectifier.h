@@ -29,6 +29,8 @@ class Rectifier {
 
     // True if pixels move: a lens is to be corrected, or colour registered to depth.
     bool active() const { return !depth_source_.empty() || registration_.has_value(); }
+    // Whether a lens has distortion that is corrected.
+    bool corrects_lens() const { return corrects_lens_; }
     // The size that raw colour images must have.
     ImageSize colour_size() const;
 
@@ -53,6 +55,7 @@ class Rectifier {
     struct ColourMaps;
     std::unique_ptr<ColourMaps> colour_maps_;
     std::optional<ColourRegistration> registration_;
+    bool corrects_lens_ = false;
     // Per channel of each raw colour pixel, in 256ths. Empty without vignetting.
     std::vector<std::uint16_t> brighter_;
 };

@@ -226,4 +226,15 @@ std::optional<Eigen::Isometry3d> InterpolatePose(const std::vector<StampedPose>&
     return T;
 }
 
+std::optional<Eigen::Isometry3d> PoseAt(const std::vector<StampedPose>& poses, double stamp_s,
+                                        double nearest_s) {
+    if (auto T = InterpolatePose(poses, stamp_s)) return T;
+    const auto distance_s = [stamp_s](const StampedPose& pose) {
+        return std::abs(pose.stamp_s - stamp_s);
+    };
+    const auto nearest = std::ranges::min_element(poses, {}, distance_s);
+    if (nearest == poses.end() || !(distance_s(*nearest) <= nearest_s)) return std::nullopt;
+    return nearest->T_world_camera;
+}
+
 }  // namespace tessera

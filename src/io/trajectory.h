@@ -46,5 +46,9 @@ std::string TrajectoryLine(const StampedPose& pose);
 // out of range or the gap between the neighbours exceeds max_gap_s.
 std::optional<Eigen::Isometry3d> InterpolatePose(const std::vector<StampedPose>& poses,
                                                  double stamp_s, double max_gap_s = 0.1);
+// As InterpolatePose; where that gives none, the pose nearest in time if it is at most `nearest_s`
+// away. `poses` must be sorted.
+std::optional<Eigen::Isometry3d> PoseAt(const std::vector<StampedPose>& poses, double stamp_s,
+                                        double nearest_s = 0.02);
 
 }  // namespace tessera

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <map>
 
@@ -142,7 +143,10 @@ class BagFile : public MessageFile {
         head_.resize(
             static_cast<std::size_t>(std::min<std::uint64_t>(kHeadBytes, record_.data_bytes)));
         if (Status status = store_.Read(chunk, record_.data, head_); !status.ok()) return status;
-        take(topic->second, {chunk.offset, record_.data, record_.data_bytes}, head_);
+        // Seconds, then nanoseconds.
+        const auto time = record_.fields.Number<std::array<std::uint32_t, 2>>("time");
+        const double received_s = time ? (*time)[0] + 1e-9 * (*time)[1] : 0;
+        take(topic->second, {chunk.offset, record_.data, record_.data_bytes, received_s}, head_);
         return {};
     }
 

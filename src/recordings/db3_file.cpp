@@ -46,9 +46,10 @@ class Db3File : public MessageFile {
 
     Status ForEach(const Take& take) override {
         Db3Statement rows = Prepare(
-            fmt::format("SELECT id, topic_id, length(data), substr(data, 1, {}) FROM messages "
-                        "ORDER BY timestamp",
-                        kHeadBytes)
+            fmt::format(
+                "SELECT id, topic_id, length(data), substr(data, 1, {}), timestamp FROM messages "
+                "ORDER BY timestamp",
+                kHeadBytes)
                 .c_str());
         if (!rows) return Failed();
         int state;
@@ -57,7 +58,8 @@ class Db3File : public MessageFile {
             if (topic == topics_.end()) continue;
             const auto id = static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 0));
             const auto bytes = static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 2));
-            take(topic->second, {0, id, bytes}, Db3Blob(rows.get(), 3));
+            const auto received_ns = static_cast<double>(sqlite3_column_int64(rows.get(), 4));
+            take(topic->second, {0, id, bytes, 1e-9 * received_ns}, Db3Blob(rows.get(), 3));
         }
         return state == SQLITE_DONE ? Status::Ok() : Failed();
     }

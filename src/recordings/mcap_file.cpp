@@ -75,6 +75,7 @@ class McapFile : public MessageFile {
   private:
     static constexpr std::size_t kRecordHead = 9;    // opcode and length
     static constexpr std::size_t kMessageHead = 22;  // before a message's data
+    static constexpr std::size_t kLogTime = 6;       // in a message's head
 
     Status Walk(const Chunk& chunk, std::uint64_t at, bool outside, const Take& take) {
         while (at < chunk.bytes) {
@@ -149,7 +150,11 @@ class McapFile : public MessageFile {
         std::memcpy(&channel, head_.data(), sizeof(channel));
         const auto topic = topics_.find(channel);
         if (topic == topics_.end()) return {};
-        take(topic->second, {chunk.offset, at + kMessageHead, size - kMessageHead},
+        std::uint64_t received_ns;
+        std::memcpy(&received_ns, head_.data() + kLogTime, sizeof(received_ns));
+        take(topic->second,
+             {chunk.offset, at + kMessageHead, size - kMessageHead,
+              1e-9 * static_cast<double>(received_ns)},
              std::span(head_).subspan(kMessageHead));
         return {};
     }

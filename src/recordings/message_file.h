@@ -28,6 +28,7 @@ inline std::string RosTypeOf(std::string name) {
 struct MessagePlace {
     std::uint64_t chunk = 0, offset = 0;
     std::uint64_t bytes = 0;
+    double received_s = 0;  // when it was recorded
 };
 
 // Owner thread only. Content is not trusted. Errors do not name the file.

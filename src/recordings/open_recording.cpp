@@ -27,7 +27,8 @@ RecordingResult WithoutConfig(const std::string& path, const FolderSourceConfig&
 }
 
 RecordingResult OpenRos(const std::string& path, const FolderSourceConfig& config) {
-    return OpenRosRecording(path, config.max_pair_gap_s, config.colour_delay_s);
+    return OpenRosRecording(path, config.max_pair_gap_s, config.colour_delay_s,
+                            {config.depth_topic, config.colour_topic});
 }
 
 constexpr std::array kRecordingKinds{
@@ -41,14 +42,26 @@ constexpr std::array kRecordingKinds{
     RecordingKind{nullptr, IsPolycamFolder, WithoutConfig<OpenPolycamRecording>},
     RecordingKind{nullptr, IsRosFolder, OpenRos}};
 
+constexpr RecordingKind kCompressedRos{".zstd", nullptr, OpenRos};
+
 const RecordingKind* KindOfRecording(const std::string& path) {
     std::error_code ignored;
     const bool folder = std::filesystem::is_directory(path, ignored);
+    if (!folder && IsCompressedRosFile(path)) return &kCompressedRos;
     for (const RecordingKind& kind : kRecordingKinds)
         if (folder ? kind.is_folder != nullptr && kind.is_folder(path)
                    : kind.ending != nullptr && EndingOf(path) == kind.ending)
             return &kind;
     return nullptr;
+}
+
+// The camera.yaml in a recording's folder or beside its file; "" if there is none.
+std::string CameraBeside(const std::string& path) {
+    std::error_code ignored;
+    const std::filesystem::path at(path);
+    const auto folder = std::filesystem::is_directory(at, ignored) ? at : at.parent_path();
+    const auto file = folder / "camera.yaml";
+    return std::filesystem::exists(file, ignored) ? file.string() : std::string();
 }
 
 }  // namespace
@@ -63,7 +76,7 @@ Result<std::unique_ptr<FrameSource>> OpenRecording(const std::string& path,
     if (kind == nullptr) return Status::Error(path + ": is no recording");
     RecordingResult recording = kind->open(path, config);
     if (!recording.ok()) return recording.status();
-    return MakeRecordingSource(path, std::move(recording.value()), config);
+    return MakeRecordingSource(path, std::move(recording.value()), config, CameraBeside(path));
 }
 
 }  // namespace tessera

@@ -33,6 +33,38 @@ RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
     return info;
 }
 
+// Takes the cameras from a camera file: that of the depth images, with colour registered to it
+// unless the file has a colour camera.
+Status TakeCamera(const std::string& file, RecordingInfo& info) {
+    const Result<CameraCalibration> read = ReadCameraFile(file);
+    if (!read.ok()) return read.status();
+    const CameraCalibration& camera = read.value();
+    const PinholeCamera depth = info.depth_camera.pinhole, colour = info.colour_camera.pinhole;
+    if (camera.pinhole.width != depth.width || camera.pinhole.height != depth.height)
+        return Status::Error(fmt::format("{}: is for images of {} x {}, but depth has {} x {}",
+                                         file, camera.pinhole.width, camera.pinhole.height,
+                                         depth.width, depth.height));
+    const double depth_scale =
+        camera.depth_scale_given ? camera.depth_scale : info.depth_camera.depth_scale;
+    info.depth_camera = info.colour_camera = camera;
+    info.depth_camera.depth_scale = depth_scale;
+    info.depth_camera.colour = info.colour_camera.colour = std::nullopt;
+    info.T_colour_depth = Eigen::Isometry3d::Identity();
+    if (camera.colour) {
+        info.colour_camera.pinhole = camera.colour->pinhole;
+        info.colour_camera.distortion = camera.colour->distortion;
+        info.T_colour_depth = camera.colour->T_colour_depth;
+    } else {
+        info.colour_camera.pinhole = ScaledTo(camera.pinhole, colour.width, colour.height);
+    }
+    info.camera_known = true;
+    std::erase_if(info.notes, [](const std::string& note) {
+        return note.find("no camera_info") != std::string::npos;
+    });
+    info.notes.push_back("the camera is that of " + file);
+    return {};
+}
+
 class RecordingSource : public FrameSource {
   public:
     RecordingSource(const std::string& path, std::unique_ptr<Recording> recording,
@@ -49,7 +81,7 @@ class RecordingSource : public FrameSource {
         info_.frame_count = std::ssize(recorded_.pairs);
         info_.fps = recorded_.fps;
         info_.depth_units_per_m = recorded_.depth_camera.depth_scale;
-        info_.rectified = rectifier_.active();
+        info_.rectified = rectifier_.corrects_lens();
         info_.notes = recorded_.notes;
         info_.warnings = recorded_.warnings;
     }
@@ -130,9 +162,13 @@ class RecordingSource : public FrameSource {
 
 Result<std::unique_ptr<FrameSource>> MakeRecordingSource(const std::string& path,
                                                          std::unique_ptr<Recording> recording,
-                                                         const FolderSourceConfig& config) {
+                                                         const FolderSourceConfig& config,
+                                                         const std::string& camera_file) {
     if (Status status = config.Validate(); !status.ok()) return status;
-    RecordingInfo info = Configured(recording->info(), config);
+    RecordingInfo info = recording->info();
+    if (!info.camera_known && !camera_file.empty())
+        if (Status status = TakeCamera(camera_file, info); !status.ok()) return status;
+    info = Configured(std::move(info), config);
     for (const CameraCalibration* camera : {&info.depth_camera, &info.colour_camera})
         if (Status status = CheckPlausible(camera->pinhole); !status.ok())
             return Status::Error(path + ": its calibration: " + status.message());

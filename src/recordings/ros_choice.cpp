@@ -84,9 +84,42 @@ std::optional<Eigen::Isometry3d> BetweenStreams(const RosContents& contents,
     return T_colour_device->second * T_depth_device->second.inverse();
 }
 
+Status CheckTopic(const RosContents& contents, bool depth, const std::string& wanted) {
+    if (wanted.empty()) return {};
+    std::string names;
+    for (const RosStream& stream : contents.streams) {
+        if (stream.is_depth != depth) continue;
+        if (stream.topic == wanted) return {};
+        names += (names.empty() ? "" : ", ") + stream.topic;
+    }
+    const char* what = depth ? "depth" : "colour";
+    return Status::Error(fmt::format("source.{}_topic: there are no {} images in {}; there are: {}",
+                                     what, what, wanted, names.empty() ? "none" : names));
+}
+
+void NoteUnused(const RosContents& contents, const RosChoice& choice, RecordingInfo& info) {
+    constexpr int kMostNamed = 20;
+    std::string names;
+    int unused = 0;
+    for (const RosStream& stream : contents.streams)
+        if (&stream != choice.depth && &stream != choice.colour && ++unused <= kMostNamed)
+            names += (names.empty() ? "" : ", ") + stream.topic;
+    if (unused > kMostNamed) names += fmt::format(" and {} more", unused - kMostNamed);
+    if (unused > 0)
+        info.notes.push_back(
+            fmt::format("also holds images, not used: {} (source.depth_topic, "
+                        "source.colour_topic)",
+                        names));
+    info.notes.insert(info.notes.end(), contents.notes.begin(), contents.notes.end());
+}
+
 }  // namespace
 
-RosChoice ChooseRosStreams(const RosContents& contents) {
+Result<RosChoice> ChooseRosStreams(const RosContents& contents, const RosTopics& wanted) {
+    for (const bool depth : {true, false})
+        if (Status status = CheckTopic(contents, depth, depth ? wanted.depth : wanted.colour);
+            !status.ok())
+            return status;
     RosChoice choice;
     const auto colour_in_frame = [&](const RosStream& depth) {
         return std::ranges::any_of(contents.streams, [&](const RosStream& stream) {
@@ -102,12 +135,13 @@ RosChoice ChooseRosStreams(const RosContents& contents) {
                           !stream.is_compressed);
     };
     for (const RosStream& stream : contents.streams)
-        if (stream.is_depth &&
+        if (stream.is_depth && (wanted.depth.empty() || stream.topic == wanted.depth) &&
             (choice.depth == nullptr || depth_rank(stream) > depth_rank(*choice.depth)))
             choice.depth = &stream;
     if (choice.depth == nullptr) return choice;
     for (const RosStream& stream : contents.streams)
-        if (!stream.is_depth && !IsInfrared(stream) &&
+        if (!stream.is_depth &&
+            (wanted.colour.empty() ? !IsInfrared(stream) : stream.topic == wanted.colour) &&
             (choice.colour == nullptr || colour_rank(stream) > colour_rank(*choice.colour)))
             choice.colour = &stream;
     return choice;
@@ -115,6 +149,7 @@ RosChoice ChooseRosStreams(const RosContents& contents) {
 
 void FindRosCameras(const RosContents& contents, const RosChoice& choice, RecordingInfo& info) {
     info.depth_camera = CalibrationOf(contents, *choice.depth, info);
+    NoteUnused(contents, choice, info);
     if (choice.colour == nullptr) {
         info.colour_camera = info.depth_camera;
         info.notes.push_back(fmt::format("depth from {}; no colour images", choice.depth->topic));

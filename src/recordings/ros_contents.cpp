@@ -33,6 +33,13 @@ RosCamera CameraOf(const RosCameraInfo& info) {
     return camera;
 }
 
+// CDR begins with 0.
+bool IsZstd(ByteView message) {
+    constexpr std::uint8_t kZstdMagic[] = {0x28, 0xb5, 0x2f, 0xfd};
+    return message.size() >= sizeof(kZstdMagic) &&
+           std::equal(std::begin(kZstdMagic), std::end(kZstdMagic), message.begin());
+}
+
 // Takes messages, and keeps what the recording needs.
 class RosScan {
   public:
@@ -46,6 +53,10 @@ class RosScan {
 
   private:
     void Take(const MessageTopic& topic, const MessagePlace& place, ByteView head) {
+        if (topic.serialisation == RosSerialisation::kCdr && IsZstd(head)) {
+            contents_.has_compressed_messages = true;
+            return;
+        }
         if (topic.type == "sensor_msgs/Image" || topic.type == "sensor_msgs/CompressedImage")
             TakeImage(topic, place, head);
         else if (topic.type == "sensor_msgs/CameraInfo")
@@ -82,9 +93,13 @@ class RosScan {
             Describe(*image, stream);
         return stream;
     }
-    static void Describe(const RosImage& image, RosStream& stream) {
+    void Describe(const RosImage& image, RosStream& stream) {
         stream.is_depth = IsDepthEncoding(image.encoding);
-        if (!stream.is_depth && !IsColourEncoding(image.encoding)) return;
+        if (!stream.is_depth && !IsColourEncoding(image.encoding)) {
+            contents_.notes.push_back(fmt::format("{}: images in the encoding '{}' are not read",
+                                                  stream.topic, image.encoding));
+            return;
+        }
         stream.is_grey = image.encoding == "mono8" || image.encoding == "8UC1";
         stream.frame_id = std::string(image.header.frame_id);
         stream.width = static_cast<int>(image.width);
@@ -135,6 +150,19 @@ class RosScan {
     ColourImage colour_;
 };
 
+bool HasNoStamps(const RosStream& stream) {
+    return std::ranges::all_of(stream.images,
+                               [](const RosImagePlace& image) { return image.stamp_s == 0; });
+}
+
+void StampByReceipt(RosStream& stream, std::vector<std::string>& warnings) {
+    if (!HasNoStamps(stream)) return;
+    for (RosImagePlace& image : stream.images) image.stamp_s = image.place.received_s;
+    warnings.push_back(
+        fmt::format("{}: the stamps in its headers are all zero: the times of recording are used",
+                    stream.topic));
+}
+
 void SortByStamp(RosStream& stream) {
     std::ranges::stable_sort(stream.images, {}, &RosImagePlace::stamp_s);
     const auto repeated = std::unique(
@@ -152,7 +180,10 @@ RosContents ScanRosFiles(std::span<const std::unique_ptr<MessageFile>> files) {
             contents.warnings.push_back(
                 fmt::format("damaged or cut off: {}; what comes before is read", status.message()));
     std::erase_if(contents.streams, [](const RosStream& stream) { return stream.images.empty(); });
-    std::ranges::for_each(contents.streams, SortByStamp);
+    for (RosStream& stream : contents.streams) {
+        StampByReceipt(stream, contents.warnings);
+        SortByStamp(stream);
+    }
     return contents;
 }
 

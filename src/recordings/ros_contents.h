@@ -47,10 +47,13 @@ struct RosContents {
     // RealSense's own bags: the transform from the device to the stream, by the stream's prefix,
     // "/device_0/sensor_0/Depth_0".
     std::map<std::string, Eigen::Isometry3d> realsense_extrinsics;
-    std::vector<std::string> warnings;
+    std::vector<std::string> notes;        // topics whose images are not read
+    std::vector<std::string> warnings;     // damage, missing stamps
+    bool has_compressed_messages = false;  // rosbag2's compression mode MESSAGE: not read
 };
 
-// Damage ends the walk through a file, with a warning. At most 1000 image topics.
+// Damage ends the walk through a file, with a warning. Where no header of a topic has a stamp, the
+// times at which its messages were recorded are taken, with a warning. At most 1000 image topics.
 RosContents ScanRosFiles(std::span<const std::unique_ptr<MessageFile>> files);
 
 }  // namespace tessera

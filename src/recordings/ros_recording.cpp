@@ -9,7 +9,6 @@
 #include "io/stamp_pairing.h"
 #include "recordings/endings.h"
 #include "recordings/recorded_stamps.h"
-#include "recordings/ros_choice.h"
 #include "recordings/ros_images.h"
 
 namespace tessera {
@@ -89,8 +88,16 @@ class RosRecording : public Recording {
     std::vector<std::uint8_t> message_;
 };
 
+Status CompressedByRosbag(const std::string& path) {
+    return Status::Error(
+        path +
+        ": compressed by rosbag2: decompress it first: ros2 bag convert -i BAG -o OUT.yaml "
+        "(docs/recordings.md has the file)");
+}
+
 MessageFileResult OpenMessageFile(const std::string& path) {
     const std::string ending = EndingOf(path);
+    if (IsCompressedRosFile(path)) return CompressedByRosbag(path);
     if (ending == ".bag") return OpenBagFile(path);
     return ending == ".db3" ? OpenDb3File(path) : OpenMcapFile(path);
 }
@@ -102,7 +109,7 @@ std::vector<std::string> RosFilesAt(const std::string& path) {
     std::vector<std::string> names;
     for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error))
         if (const std::string ending = EndingOf(it->path().string());
-            ending == ".mcap" || ending == ".db3")
+            ending == ".mcap" || ending == ".db3" || IsCompressedRosFile(it->path().string()))
             names.push_back(it->path().string());
     std::ranges::sort(names, {},
                       [](const std::string& name) { return std::pair(name.size(), name); });
@@ -113,7 +120,8 @@ const char* KindOf(const std::string& file) {
     return EndingOf(file) == ".bag" ? "ROS 1 bag" : "ROS 2 recording";
 }
 
-Status NoRosPairs(const std::string& path, const RosChoice& choice) {
+Status NoRosPairs(const std::string& path, const RosContents& contents, const RosChoice& choice) {
+    if (contents.has_compressed_messages) return CompressedByRosbag(path);
     if (choice.depth == nullptr)
         return Status::Error(path +
                              ": no depth images (a topic of type sensor_msgs/Image with the "
@@ -127,13 +135,19 @@ Status NoRosPairs(const std::string& path, const RosChoice& choice) {
 
 }  // namespace
 
+bool IsCompressedRosFile(const std::string& path) {
+    if (EndingOf(path) != ".zstd") return false;
+    const std::string inner = EndingOf(fs::path(path).replace_extension().string());
+    return inner == ".mcap" || inner == ".db3";
+}
+
 bool IsRosFolder(const std::string& path) {
     std::error_code ignored;
     return fs::is_directory(path, ignored) && !RosFilesAt(path).empty();
 }
 
 RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
-                                 double colour_delay_s) {
+                                 double colour_delay_s, const RosTopics& wanted) {
     const std::vector<std::string> names = RosFilesAt(path);
     MessageFiles files;
     for (const std::string& name : names) {
@@ -142,14 +156,16 @@ RecordingResult OpenRosRecording(const std::string& path, double max_pair_gap_s,
         files.push_back(std::move(file.value()));
     }
     RosContents contents = ScanRosFiles(files);
-    const RosChoice choice = ChooseRosStreams(contents);
+    const Result<RosChoice> chosen = ChooseRosStreams(contents, wanted);
+    if (!chosen.ok()) return Status::Error(path + ": " + chosen.message());
+    const RosChoice& choice = chosen.value();
     std::vector<StampPair> pairs;
     if (choice.depth != nullptr) pairs = PairsOf(choice, max_pair_gap_s, colour_delay_s);
     if (pairs.empty()) {
-        const Status nothing = NoRosPairs(path, choice);
-        return contents.warnings.empty()
-                   ? nothing
-                   : Status::Error(nothing.message() + "; " + contents.warnings.front());
+        std::string nothing = NoRosPairs(path, contents, choice).message();
+        for (const auto* more : {&contents.notes, &contents.warnings})
+            if (!more->empty()) nothing += "; " + more->front();
+        return Status::Error(nothing);
     }
     RecordingInfo info;
     info.kind = KindOf(names.front());

@@ -1,5 +1,7 @@
 #include "system/frame_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace tessera {
@@ -19,12 +21,15 @@ void FramePlan::Select(const Frame& frame, TrackingStage& stage) {
 void FramePlan::Track(const Frame& frame, const BlockMap& map, TrackingStage& stage,
                       TrackedFrame& tracked) {
     if (poses_.empty()) return stage.Track(frame, map, std::nullopt, tracked);
-    if (const auto T_world_camera = InterpolatePose(poses_, frame.stamp_s))
+    if (const auto T_world_camera = PoseAt(poses_, frame.stamp_s))
         return stage.Track(frame, map, T_world_camera, tracked);
     tracked.report = {};
     tracked.report.index = frame.index;
     tracked.report.stamp_s = frame.stamp_s;
-    tracked.report.track.reason = poses_file_ + " has no pose near this time";
+    tracked.report.track.reason = fmt::format(
+        "{} has no pose near this time: its poses are from {:.3f} to {:.3f} s; this frame: {:.3f} "
+        "s",
+        poses_file_, poses_.front().stamp_s, poses_.back().stamp_s, frame.stamp_s);
     tracked.to_fuse = false;
 }
 

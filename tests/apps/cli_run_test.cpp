@@ -96,6 +96,12 @@ TEST_F(Cli, RunsAndEvaluates) {
                              (folder / "ate.json") + " --plot " + (folder / "ate.png"));
     ASSERT_EQ(ate.exit_code, 0) << ate.err;
     EXPECT_NE(ate.out.find("ATE RMSE 0.0000 m"), std::string::npos) << ate.out;
+    EXPECT_NE(ate.out.find("100.0 % of the frames tracked"), std::string::npos) << ate.out;
+    const std::string elsewhere = folder / "alone.txt";
+    std::filesystem::copy_file(trajectory, elsewhere);
+    EXPECT_NE(Call("eval ate " + trajectory + " " + elsewhere)
+                  .out.find("100.0 % of the poses have a reference"),
+              std::string::npos);
     EXPECT_NE(ReadAll(folder / "ate.json").find("\"alignment\""), std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(folder / "ate.png"));
     const Outcome surface =

@@ -37,6 +37,12 @@ TEST_F(Export, WritesEveryFormatOutOfAScan) {
                   "already contains files");
 }
 
+TEST_F(Export, MapsOfARunsFolderNeedAScan) {
+    ASSERT_NO_FATAL_FAILURE(Scan(""));
+    ExpectRefused("maps " + (folder / "run") + " --ros-map " + (folder / "m.yaml"),
+                  "maps need a scan: run with --scan FILE and give that file");
+}
+
 TEST_F(Export, CropsToABox) {
     ASSERT_NO_FATAL_FAILURE(Scan(""));
     const std::string command =

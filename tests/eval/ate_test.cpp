@@ -83,6 +83,8 @@ TEST(Ate, TrackedFraction) {
     std::vector<StampedPose> estimate(reference.begin(), reference.begin() + 60);
     EXPECT_DOUBLE_EQ(EvaluateAte(reference, estimate).value().tracked_fraction, 1.0);
     EXPECT_DOUBLE_EQ(EvaluateAte(reference, estimate, {0.02, 80}).value().tracked_fraction, 0.75);
+    EXPECT_TRUE(EvaluateAte(reference, estimate, {0.02, 80}).value().of_frames);
+    EXPECT_FALSE(EvaluateAte(reference, estimate).value().of_frames);
     EXPECT_DOUBLE_EQ(EvaluateAte(reference, estimate, {0.02, 10}).value().tracked_fraction, 1.0);
     for (int i = 0; i < 20; ++i) estimate.push_back(PoseAt(500 + i, {0, 0, 0}));  // no reference
     EXPECT_DOUBLE_EQ(EvaluateAte(reference, estimate).value().tracked_fraction, 0.75);

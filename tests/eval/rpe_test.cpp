@@ -81,9 +81,17 @@ TEST(Rpe, ErrorsSayWhatIsMissing) {
 
 TEST(Rpe, JsonHasTheContractsKeys) {
     const auto path = WindingPath(100);
-    const auto json = nlohmann::json::parse(RpeJson(EvaluateRpe(path, path, {0.5}).value()));
-    EXPECT_EQ(json.size(), 3u);
+    RpeResult result = EvaluateRpe(path, path, {0.5}).value();
+    result.trans_m = {.median = 2, .max = 3};
+    result.rot_rad = {.median = M_PI, .max = M_PI / 2};
+    const auto json = nlohmann::json::parse(RpeJson(result));
+    EXPECT_EQ(json.size(), 8u);
     EXPECT_TRUE(json.at("rpe_trans_rmse_m").is_number_float());
+    EXPECT_EQ(json.at("rpe_trans_median_m"), 2);
+    EXPECT_EQ(json.at("rpe_trans_max_m"), 3);
+    EXPECT_EQ(json.at("rpe_rot_median_deg"), 180);
+    EXPECT_EQ(json.at("rpe_rot_max_deg"), 90);
+    EXPECT_EQ(json.at("pairs"), result.pairs.size());
     EXPECT_EQ(json.at("delta_s"), 0.5);
 }
 

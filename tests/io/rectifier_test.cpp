@@ -55,6 +55,15 @@ TEST(Rectifier, WithoutDistortionOnlyScalesDepth) {
 TEST(Rectifier, SwitchedOffLeavesTheImages) {
     EXPECT_FALSE(Rectifier(Freiburg1(), {.correct_distortion = false}).active());
     EXPECT_TRUE(Rectifier(Freiburg1(), {}).active());
+    EXPECT_FALSE(Rectifier(Freiburg1(), {.correct_distortion = false}).corrects_lens());
+    EXPECT_TRUE(Rectifier(Freiburg1(), {}).corrects_lens());
+    CameraCalibration ideal = Freiburg1();
+    ideal.distortion = {};
+    ideal.colour = ColourCamera{ideal.pinhole, {}, Eigen::Isometry3d::Identity()};
+    EXPECT_TRUE(Rectifier(ideal, {}).active());
+    EXPECT_FALSE(Rectifier(ideal, {}).corrects_lens());
+    ideal.colour->distortion.k1 = 0.1;
+    EXPECT_TRUE(Rectifier(ideal, {}).corrects_lens());
 }
 
 // What a lens with 30 % vignetting makes of an even grey, and of white.

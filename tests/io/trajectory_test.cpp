@@ -211,5 +211,22 @@ TEST(Trajectory, InterpolatesNothingOutsideOrAcrossGaps) {
     EXPECT_EQ(InterpolatePose(poses, 1.0)->translation().x(), 1.0);
 }
 
+TEST(Trajectory, TakesTheNearestPoseWhereItDoesNotInterpolate) {
+    const Eigen::Quaterniond identity = Eigen::Quaterniond::Identity();
+    const std::vector<StampedPose> slow = {Pose(1, {1, 0, 0}, identity),
+                                           Pose(1.2, {2, 0, 0}, identity)};
+    EXPECT_EQ(PoseAt(slow, 1.001)->translation().x(), 1.0);
+    EXPECT_EQ(PoseAt(slow, 1.185)->translation().x(), 2.0);
+    EXPECT_EQ(PoseAt(slow, 0.985)->translation().x(), 1.0);  // before the first
+    EXPECT_EQ(PoseAt(slow, 1.215)->translation().x(), 2.0);  // after the last
+    EXPECT_FALSE(PoseAt(slow, 1.021).has_value());
+    EXPECT_FALSE(PoseAt(slow, 1.25).has_value());
+    EXPECT_FALSE(PoseAt(slow, std::nan("")).has_value());
+    EXPECT_FALSE(PoseAt({}, 1).has_value());
+    const std::vector<StampedPose> fast = {Pose(1, {1, 0, 0}, identity),
+                                           Pose(1.02, {2, 0, 0}, identity)};
+    EXPECT_NEAR(PoseAt(fast, 1.005)->translation().x(), 1.25, 1e-9);  // interpolated
+}
+
 }  // namespace
 }  // namespace tessera

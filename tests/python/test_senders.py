@@ -87,6 +87,28 @@ class Senders(unittest.TestCase):
 
     def test_ros2_topics(self):
         self.check("ros2_topics.py")
+        os.environ["ROS_CASE"] = "alpha"
+        self.addCleanup(os.environ.pop, "ROS_CASE")
+        self.check("ros2_topics.py")
+        os.environ["ROS_CASE"] = "grey"
+        for number, (_, _, colour) in enumerate(parse(run_example("ros2_topics.py"))[1]):
+            grey = frames.colour_rgb(number)[:, :, :1]
+            np.testing.assert_array_equal(colour, np.repeat(grey, 3, axis=2))
+
+    def test_ros2_topics_says_what_it_cannot_send(self):
+        script = (f"import sys, runpy; sys.path[:0] = {sys.path[:2]!r}; sys.argv = ['x', '-']\n"
+                  f"runpy.run_path({str(EXAMPLES / 'ros2_topics.py')!r})\n")
+        for case, words, code in (("bayer", "/camera/color/image_raw: the encoding bayer_rggb8 is not one of rgb8", 1),
+                                  ("size", "image_raw: images of 320 x 240, but /camera/color/camera_info says 640 x 480",
+                                   1),
+                                  ("fisheye", "the lens model equidistant is not sent", 1),  # ends with NoMoreFrames
+                                  ("gone", "", 0)):
+            done = subprocess.run([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  check=False, env={**os.environ, "ROS_CASE": case})
+            self.assertEqual(done.returncode, code, case)
+            self.assertIn(words, done.stderr.decode())
+            self.assertEqual("Traceback" in done.stderr.decode(), case == "fisheye")
+            self.assertTrue(words or not done.stderr)
 
 
 class Sender(unittest.TestCase):

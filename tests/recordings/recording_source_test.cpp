@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "io/temporary_folder.h"
+
 namespace tessera {
 namespace {
 
@@ -100,6 +104,32 @@ TEST(RecordingSource, TheConfigurationReplacesTheCameraAndTheUnit) {
     Frame frame;
     ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
     EXPECT_FLOAT_EQ(frame.depth_m(5, 5), 2);
+}
+
+TEST(RecordingSource, ACameraFileCountsWhereTheRecordingHasNoCamera) {
+    TemporaryFolder folder;
+    const std::string file = folder.Path("camera.yaml");
+    const std::string values = "height: 24\nfx: 41\nfy: 42\ncx: 16\ncy: 12\ndepth_scale: 500\n";
+    std::ofstream(file) << "width: 32\n" << values;
+    const auto open = [&](bool known) {
+        auto recording = std::make_unique<MadeUpRecording>();
+        recording->info_.camera_known = known;
+        recording->info_.notes = {"/depth: no camera_info: assuming"};
+        recording->info_.colour_camera.pinhole = {64, 48, 60, 60, 31.5, 23.5};
+        return MakeRecordingSource("/made/up", std::move(recording), {}, file);
+    };
+    auto source = open(false);
+    ASSERT_TRUE(source.ok()) << source.message();
+    EXPECT_EQ(source.value()->info().camera, (PinholeCamera{32, 24, 41, 42, 16, 12}));
+    EXPECT_TRUE(source.value()->info().camera_known);
+    EXPECT_EQ(source.value()->info().notes,
+              std::vector<std::string>{"the camera is that of " + file});
+    Frame frame;
+    ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
+    EXPECT_FLOAT_EQ(frame.depth_m(5, 5), 2);
+    EXPECT_EQ(open(true).value()->info().camera, kSmallCamera);
+    std::ofstream(file) << "width: 33\n" << values;
+    EXPECT_EQ(open(false).message(), file + ": is for images of 33 x 24, but depth has 32 x 24");
 }
 
 TEST(RecordingSource, ARecordingWithoutGoodPairsIsRefused) {

@@ -62,6 +62,76 @@ TEST(RosRecording, SaysWhatIsMissing) {
     EXPECT_NE(recording.value()->info().warnings[0].find("taken as one"), std::string::npos);
 }
 
+TEST(RosRecording, WithoutStampsTheTimesOfRecordingCount) {
+    TemporaryFolder folder;
+    std::vector<Message> messages = PlainMessages();
+    constexpr std::size_t kStampAt = 4, kStampBytes = 8;
+    for (std::size_t i = 3; i < messages.size(); ++i) {
+        messages[i].data.replace(kStampAt, kStampBytes, kStampBytes, '\0');
+        const auto frame = static_cast<std::int64_t>(i - 3) / 2;
+        messages[i].time_ns = 1'000'000'000'000 + 100'000'000 * frame;
+    }
+    WriteRosFile(folder.Path("a.mcap"), McapOf(messages, ""));
+    WriteDb3(folder.Path("a.db3"), messages);
+    for (const char* name : {"a.mcap", "a.db3"}) {
+        RecordingResult recording = OpenRosRecording(folder.Path(name), kRosGap_s);
+        ASSERT_TRUE(recording.ok()) << recording.message();
+        ExpectAllImages(*recording.value());
+        ASSERT_EQ(recording.value()->info().warnings.size(), 2u);
+        EXPECT_EQ(recording.value()->info().warnings[0],
+                  "/cam/depth/image_raw: the stamps in its headers are all zero: the times of "
+                  "recording are used");
+    }
+}
+
+TEST(RosRecording, WhatRosbag2HasCompressedIsRefusedWithAdvice) {
+    TemporaryFolder folder;
+    const std::string advice = "compressed by rosbag2: decompress it first: ros2 bag convert";
+    std::vector<Message> messages = PlainMessages();
+    for (Message& message : messages) message.data = "\x28\xb5\x2f\xfd" + message.data;
+    WriteDb3(folder.Path("messages.db3"), messages);
+    EXPECT_NE(OpenRosRecording(folder.Path("messages.db3"), kRosGap_s).message().find(advice),
+              std::string::npos);
+    TemporaryFolder whole;
+    WriteRosFile(whole.Path("a_0.db3.zstd"), "x");
+    ASSERT_TRUE(IsRosFolder(whole.path()));
+    for (const std::string& path : {whole.path(), whole.Path("a_0.db3.zstd")})
+        EXPECT_EQ(
+            OpenRosRecording(path, kRosGap_s).message().find(whole.Path("a_0.db3.zstd: ") + advice),
+            0u);
+    EXPECT_FALSE(IsCompressedRosFile("a.zstd"));
+}
+
+TEST(RosRecording, NamesTheTopicsThatAreNotUsed) {
+    TemporaryFolder folder;
+    std::vector<Message> messages = PlainMessages();
+    for (Message message : {messages[3], messages[4], messages[4]}) {
+        message.topic = message.data.find("rgb8") == std::string::npos ? "/rear/depth/image_raw"
+                                                                       : "/rear/color/image_raw";
+        messages.push_back(message);
+    }
+    messages.back().topic = "/odd/image_raw";
+    messages.back().data.replace(messages.back().data.find("rgb8"), 4, "abcd");
+    WriteRosFile(folder.Path("a.mcap"), McapOf(messages, ""));
+    RecordingResult recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    const std::vector<std::string>& notes = recording.value()->info().notes;
+    ASSERT_GE(notes.size(), 2u);
+    EXPECT_EQ(notes[0],
+              "also holds images, not used: /rear/depth/image_raw, /rear/color/image_raw "
+              "(source.depth_topic, source.colour_topic)");
+    EXPECT_EQ(notes[1], "/odd/image_raw: images in the encoding 'abcd' are not read");
+    recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s, 0,
+                                 {"/rear/depth/image_raw", "/rear/color/image_raw"});
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    EXPECT_EQ(recording.value()->info().pairs.size(), 1u);
+    EXPECT_EQ(OpenRosRecording(folder.Path("a.mcap"), kRosGap_s, 0, {"/rear/color/image_raw", ""})
+                  .message(),
+              folder.Path("a.mcap") +
+                  ": source.depth_topic: there are no depth images in /rear/color/image_raw; there "
+                  "are: /cam/depth/image_raw, /rear/depth/image_raw");
+}
+
 // Opens the file and loads all images, with four bits turned over in the part from `first` on.
 void ReadDamaged(const std::string& path, std::string content, std::size_t first, std::size_t bytes,
                  unsigned seed) {

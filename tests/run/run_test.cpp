@@ -167,6 +167,12 @@ TEST_F(Run, FusesAtGivenPosesOnly) {
     ASSERT_TRUE(run.ok()) << run.message();
     EXPECT_EQ(run.value().counts.tracked, 4);
     EXPECT_EQ(run.value().counts.lost, 2);  // no pose near their time stamps
+    EXPECT_NE(ReadAll(Out("frames.csv"))
+                  .find(fmt::format("poses.txt has no pose near this time: its poses are from "
+                                    "{:.3f} to {:.3f} s; this frame: {:.3f} s",
+                                    poses.front().stamp_s, poses.back().stamp_s,
+                                    tracked.value().poses.back().stamp_s)),
+              std::string::npos);
     const auto given = ReadTrajectory(Out("trajectory.txt"));
     ASSERT_TRUE(given.ok());
     for (std::size_t i = 0; i < poses.size(); ++i)

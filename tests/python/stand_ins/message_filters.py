@@ -2,7 +2,8 @@
 import rclpy
 
 
-def Subscriber(node, kind, name):
+def Subscriber(node, kind, name, qos_profile=None):
+    assert qos_profile == "sensor data", "camera drivers publish with best effort"
     return kind, name
 
 

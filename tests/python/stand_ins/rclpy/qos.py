@@ -1,0 +1,2 @@
+"""Stands in for rclpy's profiles."""
+qos_profile_sensor_data = "sensor data"
