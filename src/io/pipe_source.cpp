@@ -59,7 +59,7 @@ class PipeSource : public FrameSource {
     bool Seek(std::int64_t) override { return false; }
 
     // Waits for the first sender's camera.
-    Status Begin(double longest_wait_s) {
+    Status Begin(double longest_wait_s, const std::atomic<bool>* stop) {
         const Stopwatch watch;
         while (part_ != Part::kFrame) {
             const ReadResult read = ReadGreeting();
@@ -67,6 +67,8 @@ class PipeSource : public FrameSource {
                 return Status::Error(name_ + ": ended before a frame; " + kExpected);
             if (read.status != ReadStatus::kOk && !read.message.empty())
                 return Status::Error(read.message);
+            if (stop != nullptr && stop->load())
+                return Status::Error(name_ + ": stopped before a sender came");
             if (watch.ElapsedMs() > 1000 * longest_wait_s)
                 return Status::Error(
                     fmt::format("{}: nothing came for {} s; start what sends the "
@@ -180,19 +182,21 @@ class PipeSource : public FrameSource {
 
 Result<std::unique_ptr<FrameSource>> OpenPipeSource(const std::string& name,
                                                     const FolderSourceConfig& config,
-                                                    double longest_wait_s) {
+                                                    double longest_wait_s,
+                                                    const std::atomic<bool>* stop) {
     constexpr std::size_t kScheme = std::string_view("pipe:").size();
     Result<ByteStream> stream = ByteStream::Open(name.substr(kScheme));
     if (!stream.ok()) return stream.status();
-    return OpenPipeSource(name, std::move(stream.value()), config, longest_wait_s);
+    return OpenPipeSource(name, std::move(stream.value()), config, longest_wait_s, stop);
 }
 
 Result<std::unique_ptr<FrameSource>> OpenPipeSource(const std::string& name, ByteStream stream,
                                                     const FolderSourceConfig& config,
-                                                    double longest_wait_s) {
+                                                    double longest_wait_s,
+                                                    const std::atomic<bool>* stop) {
     if (Status status = config.Validate(); !status.ok()) return status;
     auto source = std::make_unique<PipeSource>(name, std::move(stream), config);
-    if (Status status = source->Begin(longest_wait_s); !status.ok()) return status;
+    if (Status status = source->Begin(longest_wait_s, stop); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));
 }
 

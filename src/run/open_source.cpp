@@ -45,11 +45,12 @@ Result<std::unique_ptr<FrameSource>> OpenFolder(const std::string& name,
     return wrong.empty() ? std::move(opened) : Status::Error(name + ": " + wrong);
 }
 
-Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const RunConfig& config) {
+Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const RunConfig& config,
+                                                const std::atomic<bool>* stop) {
     if (name.starts_with("synthetic:")) return OpenSyntheticScene(name, config.synthetic);
     if (name.starts_with(kOpenniPrefix) || name.ends_with(".oni"))
         return OpenOpenniSource(name, config.openni);
-    if (name.starts_with("pipe:")) return OpenPipeSource(name, config.source);
+    if (name.starts_with("pipe:")) return OpenPipeSource(name, config.source, kLongestWait_s, stop);
     if (name.ends_with(".scan")) return ScanSource::Open(name);
     if (name.ends_with(".klg")) return OpenKlgSource(name, config.source);
     constexpr const char* kSources =
@@ -72,8 +73,9 @@ bool IsLiveSource(const std::string& name) {
     return name.starts_with(kOpenniPrefix) || name.starts_with("pipe:");
 }
 
-Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config) {
-    Result<std::unique_ptr<FrameSource>> opened = OpenAsItIs(name, config);
+Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config,
+                                                const std::atomic<bool>* stop) {
+    Result<std::unique_ptr<FrameSource>> opened = OpenAsItIs(name, config, stop);
     if (!opened.ok()) return opened;
     return CorrectDepth(std::move(opened.value()), config.source.depth_distortion);
 }

@@ -1,6 +1,7 @@
 // Opens a frame source from the SOURCE argument.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 
@@ -15,7 +16,9 @@ bool IsLiveSource(const std::string& name);
 
 // "synthetic:NAME", "synthetic:FILE.obj" (a model), "openni2:[URI]" (a camera), "FILE.oni",
 // "pipe:-", "pipe:PATH" (frames from another program), "FILE.klg", "FILE.scan", or a folder of
-// images. Errors name the source and list the kinds of source that exist.
-Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config);
+// images. `stop`, if given, ends the wait for a program that sends frames. Errors name the source
+// and list the kinds of source that exist.
+Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config,
+                                                const std::atomic<bool>* stop = nullptr);
 
 }  // namespace tessera

@@ -1,8 +1,11 @@
 // Start and end of a run.
 #include "run/runner.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "io/pipe_source.h"
 #include "io/trajectory.h"
 #include "run/noise_band.h"
 #include "system/live_engine.h"
@@ -67,7 +70,10 @@ Status Runner::Open(const std::atomic<bool>& stop) {
         given = std::move(poses.value().poses);
         notes_ = std::move(poses.value().notes);
     }
-    Result<CheckedSource> checked = OpenCheckedSource(request_, config_);
+    if (request_.source.starts_with("pipe:") && observer_.on_warning)
+        observer_.on_warning(
+            fmt::format("waiting for a sender of frames, at most {:g} s", kLongestWait_s));
+    Result<CheckedSource> checked = OpenCheckedSource(request_, config_, &stop);
     if (!checked.ok()) return checked.status();
     TakeCamera(checked.value());
     std::unique_ptr<FrameSource> source = std::move(checked.value().source);

@@ -169,9 +169,10 @@ Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConf
 
 }  // namespace
 
-Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config) {
+Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config,
+                                        const std::atomic<bool>* stop) {
     CheckedSource checked;
-    Result<std::unique_ptr<FrameSource>> opened = OpenSource(request.source, config);
+    Result<std::unique_ptr<FrameSource>> opened = OpenSource(request.source, config, stop);
     if (!opened.ok()) return opened.status();
     const SourceInfo given = opened.value()->info();
     if (!config.check_camera || given.live || !IsFileOrFolder(request.source)) {

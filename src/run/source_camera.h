@@ -23,6 +23,7 @@ struct CheckedSource {
 // cameras would need two estimates; of those only the registration and the time stamps are checked.
 // Reads the first seconds of the selection, again with what was found, and then parts of all of it
 // for the errors of depth. Errors are those of OpenSource.
-Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config);
+Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config,
+                                        const std::atomic<bool>* stop = nullptr);
 
 }  // namespace tessera

@@ -31,7 +31,7 @@ std::vector<std::vector<StampedPose>> ReadPaths(const std::string& folder) {
     return paths;
 }
 
-const StampedPose* PoseAt(const std::vector<StampedPose>& path, double stamp_s) {
+const StampedPose* PoseOfFrame(const std::vector<StampedPose>& path, double stamp_s) {
     constexpr double kSame_s = 2e-6;  // both files have six decimals
     const auto found = std::ranges::lower_bound(path, stamp_s - kSame_s, {}, &StampedPose::stamp_s);
     return found != path.end() && found->stamp_s <= stamp_s + kSame_s ? &*found : nullptr;
@@ -46,7 +46,7 @@ void AddPoses(const std::vector<std::vector<StampedPose>>& paths,
         const double stamp_s = frames[i].row.stamp_s;
         if (i + 1 < frames.size() && StartsAgain(stamp_s, frames[i + 1].row.stamp_s) && clock > 0)
             --clock;
-        if (const StampedPose* pose = PoseAt(paths[clock], stamp_s))
+        if (const StampedPose* pose = PoseOfFrame(paths[clock], stamp_s))
             frames[i].T_world_camera = pose->T_world_camera;
     }
 }

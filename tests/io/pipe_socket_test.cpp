@@ -90,6 +90,13 @@ TEST_F(Socket, AnotherSenderGoesOnWhereOneWent) {
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+TEST_F(Socket, TheWaitForASenderCanBeStopped) {
+    const std::atomic<bool> stop{true};
+    const auto source = OpenPipeSource("pipe:" + path, {}, 30, &stop);
+    EXPECT_NE(source.message().find("stopped before a sender came"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST_F(Socket, ASocketThatAKilledProgramLeftIsTakenOver) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
