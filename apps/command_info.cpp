@@ -25,7 +25,7 @@ void PrintSource(const SourceInfo& info) {
         fmt::print("frames: {} pair{} of colour and depth, {:.3g} per second\n", info.frame_count,
                    info.frame_count == 1 ? "" : "s", info.fps);
     fmt::print("camera: {} x {}, fx {:.2f} fy {:.2f} cx {:.2f} cy {:.2f} px{}\n", c.width, c.height,
-               c.fx, c.fy, c.cx, c.cy, info.rectified ? ", lens distortion corrected" : "");
+               c.fx, c.fy, c.cx, c.cy, info.lens_corrected ? ", lens distortion corrected" : "");
     fmt::print("ground truth: {}\n", info.has_truth ? "yes" : "no");
     for (const std::string& note : info.notes) fmt::print("note: {}\n", Printable(note));
     for (const std::string& warning : info.warnings)

@@ -24,7 +24,8 @@ class FolderSource : public FrameSource {
         info_.frame_count = static_cast<std::int64_t>(layout_.frames.size());
         info_.fps = layout_.calibration.fps;
         info_.depth_units_per_m = layout_.calibration.depth_scale;
-        info_.rectified = rectifier_.corrects_lens();
+        info_.rectified = rectifier_.active();
+        info_.lens_corrected = rectifier_.corrects_lens();
         info_.has_truth =
             std::any_of(layout_.frames.begin(), layout_.frames.end(),
                         [](const FolderFrame& frame) { return frame.T_world_camera.has_value(); });

@@ -49,7 +49,8 @@ struct SourceInfo {
     std::string calibration_file;
     // Read-out times of the images, as tracking has found them before; 0: not known.
     double depth_readout_s = 0, colour_readout_s = 0;
-    bool rectified = false;  // the distortion of a lens is corrected
+    bool rectified = false;       // a lens was corrected, or colour registered to depth
+    bool lens_corrected = false;  // the former
     bool has_truth = false;
     // Things the user should know: unpaired images, repeated stamps, ...
     std::vector<std::string> notes;

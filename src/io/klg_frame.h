@@ -40,7 +40,8 @@ class KlgFrameDecoder {
     Status Decode(std::span<const std::uint8_t> bytes, std::int32_t depth_bytes, Frame& frame);
     // The same without a frame, to check the bytes.
     Status Decode(std::span<const std::uint8_t> bytes, std::int32_t depth_bytes);
-    bool rectifies() const { return rectifier_.corrects_lens(); }
+    bool rectifies() const { return rectifier_.active(); }
+    bool corrects_lens() const { return rectifier_.corrects_lens(); }
 
   private:
     Status DecodeDepth(std::span<const std::uint8_t> bytes);

@@ -50,6 +50,7 @@ class KlgSource : public FrameSource {
         info_.fps = calibration.fps;
         info_.depth_units_per_m = calibration.depth_scale;
         info_.rectified = decoder_.rectifies();
+        info_.lens_corrected = decoder_.corrects_lens();
         info_.notes = std::move(notes);
         info_.warnings = std::move(index.warnings);
     }

@@ -47,7 +47,8 @@ class OpenniSource : public FrameSource {
         info_.kind = is_recording ? ".oni recording" : about_.name + " (OpenNI2 camera)";
         info_.camera = about_.calibration.pinhole;
         info_.one_camera = !about_.calibration.colour;
-        info_.rectified = rectifier_.corrects_lens();
+        info_.rectified = rectifier_.active();
+        info_.lens_corrected = rectifier_.corrects_lens();
         info_.calibration_file = CalibrationPath(about_.serial);
         info_.frame_count = about_.frame_count;
         info_.fps = about_.fps;

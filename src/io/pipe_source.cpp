@@ -127,6 +127,7 @@ class PipeSource : public FrameSource {
         info_.live = true;
         info_.depth_units_per_m = calibration.depth_scale;
         info_.rectified = decoder_->rectifies();
+        info_.lens_corrected = decoder_->corrects_lens();
         return Status::Ok();
     }
 

@@ -81,7 +81,8 @@ class RecordingSource : public FrameSource {
         info_.frame_count = std::ssize(recorded_.pairs);
         info_.fps = recorded_.fps;
         info_.depth_units_per_m = recorded_.depth_camera.depth_scale;
-        info_.rectified = rectifier_.corrects_lens();
+        info_.rectified = rectifier_.active();
+        info_.lens_corrected = rectifier_.corrects_lens();
         info_.notes = recorded_.notes;
         info_.warnings = recorded_.warnings;
     }

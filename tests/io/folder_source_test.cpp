@@ -79,6 +79,7 @@ TEST(FolderSource, CorrectsTheLensUnlessToldNotTo) {
     folder.WriteText("camera.yaml", std::string(kSmallCamera) + "distortion: [0.5, 0, 0, 0]\n");
     Frame frame;
     auto source = Open(folder);
+    EXPECT_TRUE(source->info().lens_corrected);
     EXPECT_TRUE(source->info().rectified);
     ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
     EXPECT_EQ(frame.depth_m(0, 0), 0.0f);  // the lens model maps it outside the raw image
@@ -107,6 +108,7 @@ TEST(FolderSource, RegistersAColourCameraOfItsOwn) {
     ASSERT_NE(source, nullptr);
     EXPECT_FALSE(source->info().one_camera);
     EXPECT_TRUE(source->info().rectified);
+    EXPECT_FALSE(source->info().lens_corrected);
     Frame frame;
     ASSERT_EQ(source->Read(frame).status, ReadStatus::kOk);
     // Depth 1 m: (16, 12) is seen at 16 - 15.5 + 30 - 3 and 12 - 11.5 + 20.
