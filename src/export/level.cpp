@@ -28,13 +28,14 @@ std::optional<Eigen::Vector3d> MeanUp(const std::vector<StampedPose>& path,
     if (sideways) up = left;
     if (up.norm() < kLeast) return std::nullopt;
     up.normalize();
+    if (!sideways) return up;
     // To the left or to the right: more surface is seen from above than from below.
     double facing_up = 0;
     for (const Eigen::Vector3f& normal : mesh.normals) {
         const double along = normal.cast<double>().dot(up);
         if (std::abs(along) > std::cos(40 * kDegree)) facing_up += along;
     }
-    return sideways && facing_up < 0 ? Eigen::Vector3d(-up) : up;
+    return facing_up < 0 ? Eigen::Vector3d(-up) : up;
 }
 
 // The direction, within 40 degrees of `about`, to which most normals point, or from which.

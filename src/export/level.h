@@ -19,9 +19,9 @@ struct Level {
 
 // The largest horizontal surface that faces up (floor or table) or down (ceiling) gives the
 // vertical; horizontal is what lies within 40 degrees of how the cameras were held on average:
-// upright or, as a phone is, sideways. The floor is the lowest surface with a fifth
-// of its size or more. Errors: no pose, cameras held in every direction, and meshes without a
-// horizontal surface. Thread-safe.
+// upright or, as a phone is, sideways. The floor is the lowest surface with a fifth of its size or
+// more. Errors: no pose, cameras held in every direction, and meshes without a horizontal surface.
+// Thread-safe.
 Result<Level> FindLevel(const TriangleMesh& mesh, const std::vector<StampedPose>& path);
 
 // Moves mesh and path into the level world.

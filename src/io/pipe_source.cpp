@@ -185,7 +185,7 @@ Result<std::unique_ptr<FrameSource>> OpenPipeSource(const std::string& name,
                                                     const FolderSourceConfig& config,
                                                     double longest_wait_s,
                                                     const std::atomic<bool>* stop) {
-    constexpr std::size_t kScheme = std::string_view("pipe:").size();
+    constexpr std::size_t kScheme = std::string_view(kPipePrefix).size();
     Result<ByteStream> stream = ByteStream::Open(name.substr(kScheme));
     if (!stream.ok()) return stream.status();
     return OpenPipeSource(name, std::move(stream.value()), config, longest_wait_s, stop);

@@ -14,6 +14,7 @@
 
 namespace tessera {
 
+inline constexpr const char* kPipePrefix = "pipe:";
 // For the first sender.
 inline constexpr double kLongestWait_s = 60;
 

@@ -229,11 +229,14 @@ std::optional<Eigen::Isometry3d> InterpolatePose(const std::vector<StampedPose>&
 std::optional<Eigen::Isometry3d> PoseAt(const std::vector<StampedPose>& poses, double stamp_s,
                                         double nearest_s) {
     if (auto T = InterpolatePose(poses, stamp_s)) return T;
-    const auto distance_s = [stamp_s](const StampedPose& pose) {
-        return std::abs(pose.stamp_s - stamp_s);
-    };
-    const auto nearest = std::ranges::min_element(poses, {}, distance_s);
-    if (nearest == poses.end() || !(distance_s(*nearest) <= nearest_s)) return std::nullopt;
+    const auto after = std::ranges::lower_bound(poses, stamp_s, {}, &StampedPose::stamp_s);
+    const StampedPose* nearest = nullptr;
+    if (after != poses.begin()) nearest = &*(after - 1);
+    if (after != poses.end() &&
+        (nearest == nullptr || after->stamp_s - stamp_s < stamp_s - nearest->stamp_s))
+        nearest = &*after;
+    if (nearest == nullptr || !(std::abs(nearest->stamp_s - stamp_s) <= nearest_s))
+        return std::nullopt;
     return nearest->T_world_camera;
 }
 

@@ -20,6 +20,9 @@ struct RecordedPair {
     double depth_stamp_s = 0, colour_stamp_s = 0;
 };
 
+// In the note of a recording that does not say its camera.
+inline constexpr const char* kNoCameraInfo = "no camera_info";
+
 struct RecordingInfo {
     std::string kind;                 // "ROS 1 bag", "ScanNet recording", ...
     CameraCalibration depth_camera;   // with depth_scale: stored depth value of one metre

@@ -59,7 +59,7 @@ Status TakeCamera(const std::string& file, RecordingInfo& info) {
     }
     info.camera_known = true;
     std::erase_if(info.notes, [](const std::string& note) {
-        return note.find("no camera_info") != std::string::npos;
+        return note.find(kNoCameraInfo) != std::string::npos;
     });
     info.notes.push_back("the camera is that of " + file);
     return {};

@@ -55,8 +55,8 @@ CameraCalibration CalibrationOf(const RosContents& contents, const RosStream& st
     const RosCamera* camera = RosCameraOf(contents, stream);
     if (camera == nullptr) {
         info.camera_known = false;
-        info.notes.push_back(fmt::format(
-            "{}: no camera_info: assuming a field of view of 60 degrees", stream.topic));
+        info.notes.push_back(fmt::format("{}: {}: assuming a field of view of 60 degrees",
+                                         stream.topic, kNoCameraInfo));
         calibration.pinhole = NominalPinhole(stream.width, stream.height);
     } else if (stream.topic.find("rect") != std::string::npos) {
         calibration.pinhole = camera->rectified;

@@ -50,7 +50,8 @@ Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const R
     if (name.starts_with("synthetic:")) return OpenSyntheticScene(name, config.synthetic);
     if (name.starts_with(kOpenniPrefix) || name.ends_with(".oni"))
         return OpenOpenniSource(name, config.openni);
-    if (name.starts_with("pipe:")) return OpenPipeSource(name, config.source, kLongestWait_s, stop);
+    if (name.starts_with(kPipePrefix))
+        return OpenPipeSource(name, config.source, kLongestWait_s, stop);
     if (name.ends_with(".scan")) return ScanSource::Open(name);
     if (name.ends_with(".klg")) return OpenKlgSource(name, config.source);
     constexpr const char* kSources =
@@ -70,7 +71,7 @@ Result<std::unique_ptr<FrameSource>> OpenAsItIs(const std::string& name, const R
 }  // namespace
 
 bool IsLiveSource(const std::string& name) {
-    return name.starts_with(kOpenniPrefix) || name.starts_with("pipe:");
+    return name.starts_with(kOpenniPrefix) || name.starts_with(kPipePrefix);
 }
 
 Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config,

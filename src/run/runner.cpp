@@ -70,7 +70,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
         given = std::move(poses.value().poses);
         notes_ = std::move(poses.value().notes);
     }
-    if (request_.source.starts_with("pipe:") && observer_.on_warning)
+    if (request_.source.starts_with(kPipePrefix) && observer_.on_warning)
         observer_.on_warning(
             fmt::format("waiting for a sender of frames, at most {:g} s", kLongestWait_s));
     Result<CheckedSource> checked = OpenCheckedSource(request_, config_, &stop);

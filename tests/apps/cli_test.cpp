@@ -135,6 +135,10 @@ TEST_F(Cli, InfoAndDoctorSayWhatThereIs) {
     EXPECT_NE(info.out.find("tessera run synthetic:desk --out DIR"), std::string::npos);
     EXPECT_NE(Call("info synthetic:desk --set synthetic.frames=1").out.find("frames: 1 pair of"),
               std::string::npos);
+    const std::string room = "'" + (folder / "a room") + "'";
+    ASSERT_EQ(Call("synth desk --frames 1 --out " + room).exit_code, 0);
+    EXPECT_NE(Call("info " + room).out.find("tessera run " + room + " --out DIR"),
+              std::string::npos);
     std::ofstream(folder / "a.ply") << "ply";
     std::ofstream(folder / "2. OG (neu).ply") << "ply";
     const std::string spaced = "'" + (folder / "2. OG (neu).ply") + "'";

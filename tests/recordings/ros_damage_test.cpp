@@ -125,6 +125,15 @@ TEST(RosRecording, NamesTheTopicsThatAreNotUsed) {
                                  {"/rear/depth/image_raw", "/rear/color/image_raw"});
     ASSERT_TRUE(recording.ok()) << recording.message();
     EXPECT_EQ(recording.value()->info().pairs.size(), 1u);
+    EXPECT_EQ(recording.value()->info().notes[0].find(
+                  "also holds images, not used: /cam/depth/image_raw, /cam/color/image_raw ("),
+              0u);
+    recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s, 0,
+                                 {"/rear/depth/image_raw", "/cam/color/image_raw"});
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    EXPECT_EQ(recording.value()->info().notes[0].find(
+                  "also holds images, not used: /cam/depth/image_raw, /rear/color/image_raw ("),
+              0u);
     EXPECT_EQ(OpenRosRecording(folder.Path("a.mcap"), kRosGap_s, 0, {"/rear/color/image_raw", ""})
                   .message(),
               folder.Path("a.mcap") +

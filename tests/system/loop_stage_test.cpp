@@ -114,5 +114,47 @@ TEST(LoopStage, AWalkWithoutDriftIsTheSameWithAndWithout) {
     EXPECT_EQ(with.mesh.vertices, without.mesh.vertices);
 }
 
+// It is tracked poorly for so long that it is looked for, and what it sees is found nowhere.
+TEST(LoopStage, ADoubtfulCameraFusesNothingWhileItsPlaceIsChecked) {
+    RunConfig config;
+    config.pipeline.map = {.voxel_size_m = 0.02, .truncation_m = 0.08};
+    config.pipeline.trackers.sdf.finest_step_px = 1;
+    SourceInfo source;
+    source.camera = testing_support::RoomCamera();
+    TrackingStage tracking(config.pipeline, source.camera);
+    LoopStage loops(config.loops, config.pipeline, source, std::nullopt, {});
+    BlockMap map(config.pipeline.map);
+    Integrator integrator(config.pipeline.fusion, source.camera);
+    TrackedFrame tracked;
+    std::int64_t index = 0;
+    const auto go = [&](Frame frame, const PreparedFrame* poorly_seen) {
+        frame.index = index++;
+        frame.stamp_s = frame.colour_stamp_s = static_cast<double>(index) / 30;
+        tracking.Track(frame, map, std::nullopt, tracked);
+        if (poorly_seen != nullptr) {
+            tracked.prepared = *poorly_seen;
+            tracked.report.track.status = TrackStatus::kPoor;
+            tracked.to_fuse = true;
+        }
+        loops.AfterTracking(frame, map, tracking, tracked, [](const auto&) {});
+        tracked.report.fused = tracked.to_fuse;
+        if (tracked.to_fuse) integrator.Integrate(tracked.prepared, tracked.view, map);
+        loops.AfterFusion(frame, tracked, std::nullopt, tracking, [](auto) {});
+    };
+    for (const Frame& frame : RoomWalk(0, 60, 3)) go(frame, nullptr);
+    ASSERT_TRUE(tracked.report.fused);
+    for (int i = 0; i < 75; ++i) go(Blank(), nullptr);
+    const Frame again = RoomWalk(31, 1, 1).front();
+    go(again, nullptr);
+    ASSERT_TRUE(tracked.report.tracked());
+    ASSERT_NE(tracked.report.warning.find(kPlaceUnconfirmed), std::string::npos);
+    PreparedFrame unknown;
+    PrepareFrame(RoomWalk(360, 1, 1).front(), config.pipeline.frame, unknown);
+    for (int i = 0; i < 25; ++i) {
+        go(again, &unknown);
+        EXPECT_FALSE(tracked.report.fused) << i;
+    }
+}
+
 }  // namespace
 }  // namespace tessera
