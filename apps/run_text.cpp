@@ -71,6 +71,7 @@ std::string RunText(const RunRequest& request, const RunSummary& s) {
     std::string text =
         fmt::format("{}{}: {} frames, {} tracked, {} fused, {} lost, {} skipped\n", request.source,
                     s.stopped ? " (stopped)" : "", n.frames, n.tracked, n.fused, n.lost, n.skipped);
+    if (n.frames == 0) return text;  // the files in the folder are not of this run
     if (10 * n.degenerate > n.tracked)
         text += fmt::format(
             "note: {} of the tracked frames are degenerate: the scene leaves a motion open, along "

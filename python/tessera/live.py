@@ -12,6 +12,36 @@ from . import Camera, Mesh, Trajectory, read_mesh, read_trajectory
 from .stream import FrameSender
 
 
+class _GrowingLines:
+    """The whole lines of a file that another program appends to, or begins again. What it has now is left out."""
+
+    def __init__(self, path: str):
+        self._path, self._file, self._rest = path, None, b""
+        if self._reopen():
+            self._file.seek(0, os.SEEK_END)
+
+    def _reopen(self) -> bool:
+        try:
+            file = open(self._path, "rb")
+        except FileNotFoundError:
+            return False
+        now = os.fstat(file.fileno())
+        if self._file is not None:
+            same = os.path.samestat(now, os.fstat(self._file.fileno())) and now.st_size >= self._file.tell()
+            (file if same else self._file).close()
+            if same:
+                return True
+        self._file, self._rest = file, b""
+        return True
+
+    def read(self) -> list:
+        if not self._reopen():
+            return []
+        lines = (self._rest + self._file.read()).split(b"\n")
+        self._rest = lines.pop()
+        return lines
+
+
 class Live:
     """Scans what is pushed, as `tessera run` does with a camera: frames that come faster than they are tracked are
     dropped.
@@ -36,6 +66,7 @@ class Live:
         for key, value in (settings or {}).items():
             words += ["--set", f"{key}={value}"]
         self._out = os.fspath(out)
+        self._path = _GrowingLines(os.path.join(self._out, "trajectory.txt"))
         self._lock = threading.Lock()
         self._process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=None)
         self._sender = None
@@ -52,6 +83,14 @@ class Live:
             if self._sender is None:
                 raise BrokenPipeError("the scan has ended")
             self._sender.send(stamp_s, depth, colour)
+
+    def poses(self) -> np.ndarray:
+        """Poses of the camera that have come since the last call, as tracked: (n, 8), a row for each tracked frame with
+        stamp_s tx ty tz qx qy qz qw of T_world_camera, metres; a lost frame has none. Never waits. After a reset, and
+        when loop closure has written the corrected path at the end, they begin again with the first. Not
+        thread-safe."""
+        lines = [line.split() for line in self._path.read() if not line.startswith(b"#")]
+        return np.array(lines, dtype=float).reshape(-1, 8)
 
     def finish(self) -> str:
         """Ends the scan and waits until everything is written. Returns the program's summary. Raises RuntimeError if

@@ -84,32 +84,38 @@ std::optional<Eigen::Isometry3d> BetweenStreams(const RosContents& contents,
     return T_colour_device->second * T_depth_device->second.inverse();
 }
 
+// "a, b and 3 more".
+std::string TopicList(const std::vector<std::string>& topics) {
+    constexpr std::size_t kMostNamed = 20;
+    const std::size_t named = std::min(topics.size(), kMostNamed);
+    std::string text = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + named, ", "));
+    if (topics.size() > named) text += fmt::format(" and {} more", topics.size() - named);
+    return text;
+}
+
 Status CheckTopic(const RosContents& contents, bool depth, const std::string& wanted) {
     if (wanted.empty()) return {};
-    std::string names;
+    std::vector<std::string> topics;
     for (const RosStream& stream : contents.streams) {
         if (stream.is_depth != depth) continue;
         if (stream.topic == wanted) return {};
-        names += (names.empty() ? "" : ", ") + stream.topic;
+        topics.push_back(stream.topic);
     }
     const char* what = depth ? "depth" : "colour";
     return Status::Error(fmt::format("source.{}_topic: there are no {} images in {}; there are: {}",
-                                     what, what, wanted, names.empty() ? "none" : names));
+                                     what, what, wanted,
+                                     topics.empty() ? "none" : TopicList(topics)));
 }
 
 void NoteUnused(const RosContents& contents, const RosChoice& choice, RecordingInfo& info) {
-    constexpr int kMostNamed = 20;
-    std::string names;
-    int unused = 0;
+    std::vector<std::string> unused;
     for (const RosStream& stream : contents.streams)
-        if (&stream != choice.depth && &stream != choice.colour && ++unused <= kMostNamed)
-            names += (names.empty() ? "" : ", ") + stream.topic;
-    if (unused > kMostNamed) names += fmt::format(" and {} more", unused - kMostNamed);
-    if (unused > 0)
+        if (&stream != choice.depth && &stream != choice.colour) unused.push_back(stream.topic);
+    if (!unused.empty())
         info.notes.push_back(
             fmt::format("also holds images, not used: {} (source.depth_topic, "
                         "source.colour_topic)",
-                        names));
+                        TopicList(unused)));
     info.notes.insert(info.notes.end(), contents.notes.begin(), contents.notes.end());
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/printable.h"
 #include "recordings/ros_images.h"
 #include "recordings/ros_lens.h"
 
@@ -68,6 +69,8 @@ class RosScan {
     }
 
     void TakeImage(const MessageTopic& topic, const MessagePlace& place, ByteView head) {
+        constexpr std::size_t kLongestName = 255;  // as in ROS 2
+        if (topic.name.size() > kLongestName) return;
         const auto header = ParseHeader(topic.serialisation, head);
         if (!header) return;
         auto stream = std::ranges::find(contents_.streams, topic.name, &RosStream::topic);
@@ -97,7 +100,8 @@ class RosScan {
         stream.is_depth = IsDepthEncoding(image.encoding);
         if (!stream.is_depth && !IsColourEncoding(image.encoding)) {
             contents_.notes.push_back(fmt::format("{}: images in the encoding '{}' are not read",
-                                                  stream.topic, image.encoding));
+                                                  stream.topic,
+                                                  Printable(image.encoding, kQuotedBytes)));
             return;
         }
         stream.is_grey = image.encoding == "mono8" || image.encoding == "8UC1";

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/printable.h"
 #include "io/image_decoder.h"
 #include "io/jpeg_decoder.h"
 #include "io/png_decoder.h"
@@ -127,7 +128,7 @@ double RosDepthScale(std::string_view encoding_or_format) {
 Status DecodeRosDepth(const RosImage& message, Image<std::uint16_t>& depth) {
     const bool floats = message.encoding == "32FC1";
     if (!IsDepthEncoding(message.encoding))
-        return Status::Error(fmt::format("depth in the encoding {}", message.encoding));
+        return Status::Error("depth in the encoding " + Printable(message.encoding, kQuotedBytes));
     if (Status status = CheckSize(message, floats ? 4 : 2); !status.ok()) return status;
     if (message.big_endian && floats) return Status::Error("big-endian floats");
     depth.Resize(static_cast<int>(message.width), static_cast<int>(message.height));
@@ -156,7 +157,7 @@ Status DecodeRosColour(const RosImage& message, ColourImage& colour) {
         return DecodeYuv(message, *yuv, colour);
     const ColourLayout* layout = LayoutOf(kColourLayouts, message.encoding);
     if (layout == nullptr)
-        return Status::Error(fmt::format("colour in the encoding {}", message.encoding));
+        return Status::Error("colour in the encoding " + Printable(message.encoding, kQuotedBytes));
     if (Status status = CheckSize(message, layout->bytes); !status.ok()) return status;
     colour.Resize(static_cast<int>(message.width), static_cast<int>(message.height));
     for (int y = 0; y < colour.height(); ++y) {

@@ -66,8 +66,9 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
     if (Status status = PrepareOutputFolder(request.output_folder); !status.ok()) return status;
     std::unique_ptr<RunOutput> output(new RunOutput(request, config));
     std::error_code ignored;
-    for (const char* name : {"mesh.ply", "preview.png", "objects.json", "timings.json",
-                             "detections.txt", "trajectory_tracked.txt"})
+    for (const char* name :
+         {"mesh.ply", "preview.png", "objects.json", "timings.json", "detections.txt",
+          "trajectory.txt", "frames.csv", "trajectory_tracked.txt"})
         std::filesystem::remove(output->Path(name), ignored);
     for (int clock = 1; std::filesystem::remove(output->EarlierPath(clock), ignored);) ++clock;
     RunSummary unfinished;

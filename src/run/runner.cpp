@@ -7,6 +7,7 @@
 
 #include "io/pipe_source.h"
 #include "io/trajectory.h"
+#include "run/earlier_run.h"
 #include "run/noise_band.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
@@ -148,16 +149,27 @@ Result<ScanPlan> Runner::OpenScan() {
     return plan;
 }
 
-// Called at the first outcome, not before: a run that is refused reports only its error and leaves
-// the results of an earlier run.
 Status Runner::Begin() {
     begun_ = true;
-    if (!request_.output_folder.empty())
+    const std::string& folder = request_.output_folder;
+    if (!folder.empty()) {
+        if (!request_.resume) {
+            Result<std::string> kept = KeepEarlierRun(folder);
+            if (!kept.ok()) return kept.status();
+            if (!kept.value().empty())
+                notes_.push_back(
+                    fmt::format("{}: the last run's results are now in {}", folder, kept.value()));
+        }
         if (Status status = OpenOutput(); !status.ok()) return status;
+    }
+    TellOpened();
+    return Status::Ok();
+}
+
+void Runner::TellOpened() {
     opened_ = true;
     if (observer_.on_open) observer_.on_open(summary_.source);
     for (const std::string& note : notes_) Warn(note);
-    return Status::Ok();
 }
 
 Status Runner::OpenOutput() {

@@ -34,9 +34,10 @@ class Runner {
     void TakeCamera(const CheckedSource& checked);
     void BeginShutters(PipelineConfig& config);
     Result<ScanPlan> OpenScan();
-    // Called at the first outcome, not before: a run that is refused reports only its error and
-    // leaves the results of an earlier run.
+    // Called at the first outcome, not before: a run that is refused, or that is stopped before its
+    // first frame, leaves the results of an earlier run.
     Status Begin();
+    void TellOpened();
 
     Status TakeOutcomes();
     Status Take(const FrameOutcome& outcome);

@@ -122,6 +122,30 @@ class Sender(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, word):
                     sender.send(0, depth, colour)
 
+    def test_lines_of_a_file_that_grows(self):
+        from tessera.live import _GrowingLines
+        with tempfile.TemporaryDirectory() as folder:
+            path = folder + "/path.txt"
+            late = _GrowingLines(path)
+            self.assertEqual(late.read(), [])
+            with open(path, "wb") as file:
+                file.write(b"old\n")
+            new = _GrowingLines(path)
+            self.assertEqual((late.read(), new.read()), ([b"old"], []))
+            with open(path, "ab") as file:
+                file.write(b"one\ntw")
+            self.assertEqual((late.read(), new.read()), ([b"one"], [b"one"]))
+            with open(path, "ab") as file:
+                file.write(b"o\n")
+            self.assertEqual((late.read(), late.read()), ([b"two"], []))
+            with open(path, "wb") as file:  # begun again in place
+                file.write(b"x\ny")
+            self.assertEqual(late.read(), [b"x"])
+            os.rename(path, folder + "/earlier.txt")
+            with open(path, "wb") as file:  # another file
+                file.write(b"a much longer line than before\n")
+            self.assertEqual((late.read(), new.read()), ([b"a much longer line than before"],) * 2)
+
     def test_a_live_scan(self):
         import tessera.live
         size = {"synthetic.width": 160, "synthetic.height": 120, "synthetic.fx": 131, "synthetic.fy": 131,
@@ -129,11 +153,17 @@ class Sender(unittest.TestCase):
         scene = list(tessera.frames("synthetic:desk", settings={"synthetic.frames": 12, **size}))
         with tempfile.TemporaryDirectory() as folder:
             out = folder + "/o"
+            os.mkdir(out)
+            with open(out + "/trajectory.txt", "w", encoding="ascii") as earlier:
+                earlier.write("1 0 0 0 0 0 0 1\n")
             with tessera.live.Live(scene[0].camera, out, options=["--mode", "lockstep"], depth_scale=5000,
                                    settings={"mapping.voxel_size_m": 0.04, "mapping.truncation_m": 0.16}) as live:
                 for frame in scene:
                     live.push(np.round(5000 * frame.depth_m).astype(np.uint16), frame.colour, frame.stamp_s)
             self.assertEqual(len(live.trajectory().stamps_s), 12)
+            poses = live.poses()
+            self.assertEqual(list(poses[:, 0]), list(live.trajectory().stamps_s))
+            np.testing.assert_allclose(poses[:, 1:4], live.trajectory().T_world_camera[:, :3, 3], atol=1e-6)
             self.assertGreater(len(live.mesh().triangles), 1000)
             with self.assertRaises((BrokenPipeError, ValueError)):
                 live.push(np.zeros((120, 160), np.uint16), None, 99.0)

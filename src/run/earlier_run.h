@@ -1,0 +1,16 @@
+// A camera's run cannot be made again: its results are kept when the next run writes into the same
+// folder.
+#pragma once
+
+#include <string>
+
+#include "core/status.h"
+
+namespace tessera {
+
+// If `folder` has the results of a run of a camera that tracked a frame, moves them to
+// folder/earlier_1, or the next number that is free, and returns that folder. Else returns "" and
+// leaves all as it is. Errors name the file that cannot be moved.
+Result<std::string> KeepEarlierRun(const std::string& folder);
+
+}  // namespace tessera
