@@ -2,15 +2,24 @@
 
 namespace tessera {
 
+using Question = CameraSearch::Question;
+
+namespace {
+
+CameraSearch SearchFor(const LiveTracking::Settings& settings) {
+    return {settings.config.loops, settings.config.pipeline.motion.max_gap_s, settings.camera};
+}
+
+}  // namespace
+
 LiveTracking::State::State(const Settings& settings, FramePlan plan)
     : life(settings.config, settings.camera, settings.device, std::move(plan)),
       field(std::make_unique<BlockMap>(settings.config.pipeline.map,
                                        settings.config.pipeline.trackers.layers())),
-      lost(settings.config.loops, settings.config.pipeline.motion.max_gap_s),
-      place(settings.camera) {
+      search(SearchFor(settings)) {
     if (!settings.resume) return;
     life.Resume(*settings.resume);
-    lost.Resume(settings.resume->last_stamp_s);
+    search.Resume(settings.resume->last_stamp_s);
 }
 
 LiveTracking::LiveTracking(Settings settings, FramePlan plan, LiveLinks& links,
@@ -56,10 +65,7 @@ void LiveTracking::Reset() {
     state_->version = {state_->version.world + 1, 0};
     state_->life.Reset();
     state_->field->Clear();
-    state_->lost = LostCamera(settings_.config.loops, settings_.config.pipeline.motion.max_gap_s);
-    state_->place = PlaceCheck(settings_.camera);
-    state_->T_doubted.reset();
-    state_->found_at.reset();
+    state_->search = SearchFor(settings_);
     state_->looked_for = false;
 }
 
@@ -79,8 +85,7 @@ void LiveTracking::Track(NewFrame& item) {
     life.SetSeeking(state_->seeking && state_->looked_for && !task.T_found_camera);
     life.Begin(frame);
     life.Track(frame, MapToTrackIn(), *task.tracked);
-    CheckIfLost(*task.tracked);
-    TellWhereFound(*task.tracked);
+    Search(*task.tracked);
     life.End(*task.tracked);
     task.tracked->tracking_state.clear();
     if (links_.saving.load()) life.SaveState(*task.tracked);
@@ -122,8 +127,7 @@ bool LiveTracking::ApplyMapUpdates() {
         if (ours && update.field) {
             state_->field = std::move(update.field);
             state_->life.stage().Move(update.T_new_old);
-            state_->place.Move(update.T_new_old);
-            state_->lost.Move(update.T_new_old);
+            state_->search.Move(update.T_new_old);
             ++state_->version.corrections;
         }
         if (ours && update.delta) ApplyDelta(*update.delta, *state_->field);
@@ -147,72 +151,30 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
     state_->asked = false;
     if (answer.map != state_->version) return std::nullopt;
     if (answer.check) {
-        if (!state_->place.Answer(answer.found)) {
-            state_->lost.Lose();
-            links_.notices.Tell(kPlaceRefuted);
-        } else if (!state_->place.open()) {
-            state_->found_at = answer.found->keyframe;
-            links_.notices.Tell(kPlaceConfirmed);
-        }
+        const char* note = "";
+        state_->search.TakeSecondView(answer.found, note);
+        links_.notices.Tell(note);
         return std::nullopt;
     }
     state_->looked_for = true;
-    if (!answer.found) return std::nullopt;
-    const Eigen::Isometry3d& T_found_camera = answer.found->T_map_camera;
-    if (!state_->lost.lost()) {
-        if (!state_->T_doubted) return std::nullopt;
-        if (SamePlace(*state_->T_doubted, T_found_camera)) {
-            state_->lost.Confirm();
-            return std::nullopt;
-        }
-        state_->lost.Doubt();
-    }
+    const auto T_found_camera = state_->search.TakeWhere(answer.found, stamp_s);
+    if (!T_found_camera) return std::nullopt;
     links_.notices.Tell(answer.note);
-    state_->life.stage().Relocate({answer.stamp_s, T_found_camera});
-    state_->lost.SetRelocalised(stamp_s);
-    state_->found_at = answer.found->keyframe;
+    state_->life.stage().Relocate({answer.stamp_s, *T_found_camera});
     return T_found_camera;
 }
 
-void LiveTracking::TellWhereFound(TrackedFrame& tracked) {
-    tracked.found_at.reset();
-    if (!tracked.report.tracked()) return;
-    tracked.found_at = std::exchange(state_->found_at, std::nullopt);
-    state_->looked_for = false;
-}
-
-void LiveTracking::CheckIfLost(TrackedFrame& tracked) {
-    if (loops_ == nullptr || !state_->seeking) return;
-    if (tracked.report.first) state_->place.Close();
-    const bool by_appearance = state_->lost.relocalised();
-    const LostCamera::Verdict verdict = state_->lost.Judge(tracked);
-    if (verdict != LostCamera::Verdict::kLost) {
-        const StampedPose found{tracked.report.stamp_s, tracked.report.track.T_world_camera};
-        const bool reached = state_->lost.CanReach(found);
-        if (by_appearance && !state_->lost.relocalised() && (state_->place.open() || !reached)) {
-            const bool confirmed =
-                state_->place.Begin(tracked.prepared, found.T_world_camera, reached);
-            links_.notices.Tell(confirmed ? kPlaceConfirmed : kPlaceUnconfirmed);
-        }
-        if (by_appearance && tracked.report.tracked()) state_->lost.SetLastGood(found);
-        if (verdict == LostCamera::Verdict::kDoubtful && !state_->asked && !state_->place.open()) {
-            state_->T_doubted = found.T_world_camera;
-            Ask(tracked, false);
-        }
-        return CheckPlace(tracked);
+void LiveTracking::Search(TrackedFrame& tracked) {
+    CameraSearch& search = state_->search;
+    if (loops_ != nullptr && state_->seeking) {
+        const CameraSearch::Step step = search.AfterTracking(tracked, !state_->asked);
+        links_.notices.Tell(step.note);
+        if (step.lost && tracked.report.tracked())
+            state_->life.stage().RejectPose(kPoseUnconfirmed, tracked);
+        if (step.question != Question::kNone) Ask(tracked, step.question == Question::kSecondView);
     }
-    state_->T_doubted.reset();
-    if (tracked.report.tracked()) state_->life.stage().RejectPose(kPoseUnconfirmed, tracked);
-    if (!state_->asked && tracked.prepared.valid_depth_pixels > 0) Ask(tracked, false);
-}
-
-void LiveTracking::CheckPlace(TrackedFrame& tracked) {
-    if (!state_->place.open() || !tracked.report.tracked()) return;
-    tracked.to_fuse = false;
-    const Eigen::Isometry3d& T_world_camera = tracked.report.track.T_world_camera;
-    if (state_->asked || !state_->place.Due(T_world_camera)) return;
-    state_->place.Remember(tracked.prepared, T_world_camera, tracked.report.track.degenerate);
-    Ask(tracked, true);
+    search.TellWhereFound(tracked);
+    if (tracked.report.tracked()) state_->looked_for = false;
 }
 
 void LiveTracking::Ask(const TrackedFrame& tracked, bool check) {

@@ -3,11 +3,10 @@
 #pragma once
 
 #include "core/worker.h"
+#include "system/camera_search.h"
 #include "system/frame_tracking.h"
 #include "system/live_links.h"
 #include "system/live_mapping.h"
-#include "system/lost_camera.h"
-#include "system/place_check.h"
 
 namespace tessera {
 
@@ -41,16 +40,12 @@ class LiveTracking {
         FrameTracking life;
         std::unique_ptr<BlockMap> field;  // copy of what tracking reads; unused with a device
         MapVersion version;               // of that copy
-        LostCamera lost;
-        PlaceCheck place;
+        CameraSearch search;
         bool seeking = true;  // loops are switched on
         bool asked = false;   // a relocalisation question is pending
         // An answer has come since the camera was last tracked. Until then no part begins, however
         // long that takes.
         bool looked_for = false;
-        std::optional<int> found_at;  // for the next frame that is tracked: see TrackedFrame
-        // Where a camera that is tracked poorly was thought to be when it was asked for.
-        std::optional<Eigen::Isometry3d> T_doubted;
         std::optional<LabelSettings> labels;  // new ones for mapping
         std::string detector;                 // as last chosen
         bool detector_changed = false;        // since the last task for mapping
@@ -64,9 +59,7 @@ class LiveTracking {
     bool ApplyMapUpdates();
     void TakeHint();
     std::optional<Eigen::Isometry3d> TakeRelocalisation(double stamp_s);
-    void TellWhereFound(TrackedFrame& tracked);
-    void CheckIfLost(TrackedFrame& tracked);
-    void CheckPlace(TrackedFrame& tracked);
+    void Search(TrackedFrame& tracked);
     void Ask(const TrackedFrame& tracked, bool check);
 
     const Settings settings_;

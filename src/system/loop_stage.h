@@ -6,10 +6,9 @@
 
 #include "io/frame_source.h"
 #include "optimize/loop_closer.h"
+#include "system/camera_search.h"
 #include "system/labelling_stage.h"
 #include "system/loop_journal.h"
-#include "system/lost_camera.h"
-#include "system/place_check.h"
 #include "system/tracking_stage.h"
 
 namespace tessera {
@@ -61,11 +60,12 @@ class LoopStage {
     }
 
   private:
-    void Check(TrackingStage& tracking, TrackedFrame& tracked);
+    bool Find(const Frame& frame, const BlockMap& map, const CameraSearch::Step& step,
+              TrackingStage& tracking, TrackedFrame& tracked, const LoadAround& bring);
+    void CheckPlace(TrackingStage& tracking, TrackedFrame& tracked);
 
     LoopConfig config_;
-    LostCamera camera_;
-    PlaceCheck place_;
+    CameraSearch search_;
     LoopCloser closer_;
     LoopJournal journal_;
     bool on_ = true, finished_ = false;

@@ -44,7 +44,7 @@ struct TrackedFrame {
     FrameReport report;
     Integrator::View view;
     bool to_fuse = false;
-    // Live: the keyframe where the camera was found, if this is the first frame tracked since.
+    // The keyframe where the camera was found, if this is the first frame tracked since.
     std::optional<int> found_at;
     // TrackingStage::SaveState after this frame. Filled while a scan is written.
     std::vector<std::uint8_t> tracking_state;
