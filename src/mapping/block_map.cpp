@@ -147,6 +147,12 @@ void BlockMap::AllocateAs(BlockId id, const BlockCoord& c) {
     Enter(id, c, next_number_);
 }
 
+void BlockMap::NumberAnew() {
+    next_number_ = 1;
+    for (BlockId id = 1; id < size_; ++id)
+        if (!IsFree(id)) coords_.data()[4 * static_cast<std::size_t>(id) + 3] = next_number_++;
+}
+
 BlockId BlockMap::TakeId() {
     if (!free_.empty()) {
         std::ranges::pop_heap(free_, std::greater());

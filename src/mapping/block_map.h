@@ -81,6 +81,9 @@ class BlockMap {
     // blocks.
     void SetNextNumber(std::int32_t number) { next_number_ = number; }
     std::int32_t next_number() const { return next_number_; }
+    // Numbers the blocks anew in the order of their ids, without gaps. For a map of which no
+    // released block comes back.
+    void NumberAnew();
     // dx, dy, dz in {-1, 0, 1}. Does a hash look-up.
     BlockId neighbour(BlockId id, int dx, int dy, int dz) const;
 

@@ -54,6 +54,7 @@ MovedParts MoveParts(const BlockMap& in_use, const ScanGraph& graph, const World
     }
     for (std::size_t k = 0; k < to.size(); ++k)
         if (graph.LeftOut(static_cast<int>(k))) moved.T_map_keyframe[k] = to[k];
+    moved.map->NumberAnew();  // a scan file wants no gaps
     for (BlockId id = 1; id < moved.map->size(); ++id) moved.map->MarkChanged(id, 0);
     return moved;
 }

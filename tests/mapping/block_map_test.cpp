@@ -207,6 +207,20 @@ TEST(BlockMap, AReleasedBlockComesBackUnderItsNumber) {
     EXPECT_EQ(map.number(map.Allocate({10, 0, 0})), 100);
 }
 
+TEST(BlockMap, NumbersAnewLeaveNoGap) {
+    BlockMap map{BlockMap::Config{}};
+    for (int i = 0; i < 5; ++i) map.Allocate({i, 0, 0});
+    map.Release(map.Find({1, 0, 0}));
+    map.Release(map.Find({3, 0, 0}));
+    map.Allocate({9, 0, 0});
+    map.NumberAnew();
+    EXPECT_EQ(map.number(map.Find({0, 0, 0})), 1);
+    EXPECT_EQ(map.number(map.Find({9, 0, 0})), 2) << "it has the lowest free id";
+    EXPECT_EQ(map.number(map.Find({2, 0, 0})), 3);
+    EXPECT_EQ(map.number(map.Find({4, 0, 0})), 4);
+    EXPECT_EQ(map.next_number(), 5);
+}
+
 TEST(BlockMap, RegionsListTheirBlocks) {
     BlockMap map{BlockMap::Config{}};
     for (std::uint32_t i = 0; i < 20000; ++i) map.Allocate(RandomCoord(i, 30));

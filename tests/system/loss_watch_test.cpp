@@ -130,19 +130,19 @@ TEST_P(LostStart, BeginsAgain) {
     EXPECT_GT(engine->map_statistics().blocks, 100);
     for (const auto& vertex : engine->TakeMesh().vertices) ASSERT_LT(vertex.norm(), 20);
 }
-INSTANTIATE_TEST_SUITE_P(Engines, LostStart, testing::Bool());
-
 // What is exported from the file is what the run has written. A later session has the rest.
-TEST_F(LostCameraRun, AScanFileDoesNotShowWhatWasLeftOut) {
+TEST_P(LostStart, AScanFileDoesNotShowWhatWasLeftOut) {
     if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     const TempFolder folder;
     const std::string path = folder / "a.scan";
-    ASSERT_NO_FATAL_FAILURE(Make(false, Kidnapped(2, 60), path));
+    ASSERT_NO_FATAL_FAILURE(Make(GetParam(), Kidnapped(2, 60), path));
     const std::vector<StampedPose> kept = engine->CorrectedPath();
     ASSERT_FALSE(kept.empty());
+    const std::int64_t blocks = engine->map_statistics().blocks;
     engine.reset();
     Result<ScanContent> scan = ReadScan(path, {.map = true, .frames = true});
     ASSERT_TRUE(scan.ok()) << scan.message();
+    EXPECT_EQ(scan.value().map->count(), blocks);
     const std::vector<StampedPose> stored = scan.value().Path();
     ASSERT_EQ(stored.size(), kept.size());
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -151,6 +151,8 @@ TEST_F(LostCameraRun, AScanFileDoesNotShowWhatWasLeftOut) {
     }
     EXPECT_EQ(TakeLoopMemory(scan.value()).graph.passages.size(), kept.size() + 2);
 }
+
+INSTANTIATE_TEST_SUITE_P(Engines, LostStart, testing::Bool());
 
 // The camera walks back to where it was before.
 std::vector<Frame> ThereAndBack() {
