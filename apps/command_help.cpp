@@ -54,7 +54,8 @@ std::string ManualPage(const CLI::App& app) {
         ".B tessera\n.I COMMAND\n[options]\n.SH DESCRIPTION\n{1}\n.SH COMMANDS\n",
         app.version(), Troff(app.get_description()));
     for (const CLI::App* command : CommandsOf(app)) AddCommand(*command, command->get_name(), page);
-    return page + ".SH SEE ALSO\n/usr/share/doc/tessera, of which guide.md is the beginning.\n";
+    return page +
+           ".SH SEE ALSO\n/usr/share/doc/tessera, of which docs/guide.md is the beginning.\n";
 }
 
 // The long options and the parts of a command, in one line.

@@ -45,7 +45,7 @@ class Install(unittest.TestCase):
         answer = call("bash", "-c", f"source {script}; COMP_WORDS=(tessera run --loop); COMP_CWORD=2; _tessera; "
                                     "echo ${COMPREPLY[@]}")
         self.assertEqual(answer.strip(), "--loop-closure")
-        self.assertTrue((self.prefix / "share/doc/tessera/guide.md").exists())
+        self.assertTrue((self.prefix / "share/doc/tessera/docs/guide.md").exists())
 
     def test_the_kinects_driver_where_openni2_looks(self):
         if not (BUILD / "drivers/kinect/libTesseraFreenect.so.0").exists():
@@ -103,8 +103,13 @@ class Install(unittest.TestCase):
         for name, package in packages.items():
             depends = call("dpkg-deb", "-f", package, "Depends")
             self.assertGreater(len(depends.split(",")), 1, name)
+            self.assertIn(f"/usr/share/doc/{name}/copyright\n", call("dpkg-deb", "-c", package))
             print(f"{package.name}: {package.stat().st_size / 2**20:.1f} MB, depends on {len(depends.split(','))}")
         self.assertIn("libopencv-core", call("dpkg-deb", "-f", packages["tessera"], "Depends"))
+        searched = call("dpkg-deb", "-f", packages["libtessera-dev"], "Depends")
+        self.assertIn("nlohmann-json3-dev", searched)
+        for package in ("libclang-rt", "libcli11-dev", "libimgui-dev"):  # not for who links the libraries
+            self.assertNotIn(package, searched)
         call("dpkg-deb", "-x", packages["tessera"], folder / "root")
         self.assertIn("tessera", call(folder / "root/usr/bin/tessera", "--version"))
 

@@ -1,0 +1,73 @@
+# What only the program, the Python module, tests and benchmarks need. Not installed: who links the
+# libraries needs TesseraDependencies.cmake alone.
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+
+# The window: ImGui with its GLFW and OpenGL backends, which Debian compiles into the library.
+if(PkgConfig_FOUND)
+    pkg_check_modules(IMGUI IMPORTED_TARGET imgui>=1.80)
+    pkg_check_modules(GLFW IMPORTED_TARGET glfw3>=3.3)
+endif()
+if(TESSERA_GL AND IMGUI_FOUND AND GLFW_FOUND)
+    set(TESSERA_WINDOW ON)
+else()
+    set(TESSERA_WINDOW OFF)
+    message(STATUS "tessera: window off (install pkg-config, libepoxy-dev, libimgui-dev and libglfw3-dev)")
+endif()
+
+# The Kinect, which OpenNI2's own drivers do not support.
+find_path(FREENECT_INCLUDE libfreenect.h PATH_SUFFIXES libfreenect)
+find_library(FREENECT_LIBRARY freenect)
+if(TESSERA_OPENNI2 AND FREENECT_INCLUDE AND FREENECT_LIBRARY)
+    set(TESSERA_KINECT ON)
+else()
+    set(TESSERA_KINECT OFF)
+    message(STATUS "tessera: driver for the Kinect off (install libopenni2-dev and libfreenect-dev)")
+endif()
+
+# Volumes for other programs. Off under the sanitizers: the writer uses no threads of ours, and
+# OpenVDB's headers take minutes to compile.
+find_path(OPENVDB_INCLUDE openvdb/openvdb.h)
+find_library(OPENVDB_LIBRARY openvdb)
+find_path(IMATH_INCLUDE half.h PATH_SUFFIXES Imath)
+find_library(IMATH_LIBRARY Imath)
+if(OPENVDB_INCLUDE AND OPENVDB_LIBRARY AND IMATH_INCLUDE AND IMATH_LIBRARY AND NOT TESSERA_SANITIZE)
+    set(TESSERA_VDB ON)
+    add_library(tessera_openvdb INTERFACE)
+    target_include_directories(tessera_openvdb SYSTEM INTERFACE ${OPENVDB_INCLUDE} ${IMATH_INCLUDE})
+    target_link_libraries(tessera_openvdb INTERFACE ${OPENVDB_LIBRARY} ${IMATH_LIBRARY} TBB::tbb)
+else()
+    set(TESSERA_VDB OFF)
+    message(STATUS "tessera: export of .vdb volumes off (install libopenvdb-dev; sanitizers are not supported)")
+endif()
+
+# The Python module, built for Debian's interpreter and headers, even if another Python is first on
+# PATH.
+if(TESSERA_PYTHON AND TESSERA_SANITIZE)
+    set(TESSERA_PYTHON OFF)
+    message(STATUS "tessera: Python module off (the interpreter is not built with the sanitizer)")
+elseif(TESSERA_PYTHON)
+    if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+        set(Python_EXECUTABLE /usr/bin/python3)
+    endif()
+    find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module NumPy)
+    if(Python_FOUND)
+        find_package(pybind11 2.10 QUIET CONFIG)
+    endif()
+    if(NOT pybind11_FOUND)
+        set(TESSERA_PYTHON OFF)
+        message(STATUS "tessera: Python module off (install python3-dev, python3-numpy and pybind11-dev)")
+    endif()
+endif()
+
+if(TESSERA_TESTS)
+    find_package(GTest REQUIRED)
+    include(GoogleTest)
+endif()
+if(TESSERA_BENCH)
+    find_package(benchmark)
+    if(NOT benchmark_FOUND)
+        message(STATUS "tessera: benchmarks off (install libbenchmark-dev)")
+        set(TESSERA_BENCH OFF)
+    endif()
+endif()
