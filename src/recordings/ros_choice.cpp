@@ -30,10 +30,13 @@ std::ptrdiff_t CommonPrefix(const std::string& a, const std::string& b) {
     return std::ranges::mismatch(a, b).in1 - a.begin();
 }
 
+// By the names of the cameras' drivers: "/camera/infra1/image_rect_raw", "/k4a/ir/image_raw",
+// "/camera/left_ir/image_raw", "/kinect2/sd/image_ir_rect". Of 16 bits it looks like depth.
 bool IsInfrared(const RosStream& stream) {
-    return stream.topic.find("/infra") != std::string::npos ||
-           stream.topic.find("/Infrared") != std::string::npos ||
-           stream.topic.find("/ir/") != std::string::npos;
+    const std::string name = stream.topic + "/";
+    constexpr const char* kParts[] = {"/infra", "/Infrared", "/ir/", "_ir/", "/image_ir_"};
+    return std::ranges::any_of(
+        kParts, [&](const char* part) { return name.find(part) != std::string::npos; });
 }
 
 // The camera of a topic: the CameraInfo beside it, or else one of its frame.
@@ -55,8 +58,9 @@ CameraCalibration CalibrationOf(const RosContents& contents, const RosStream& st
     const RosCamera* camera = RosCameraOf(contents, stream);
     if (camera == nullptr) {
         info.camera_known = false;
-        info.notes.push_back(fmt::format("{}: {}: assuming a field of view of 60 degrees",
-                                         stream.topic, kNoCameraInfo));
+        info.notes.push_back(
+            fmt::format("{}: {}, or only zeros in it: assuming a field of view of 60 degrees",
+                        stream.topic, kNoCameraInfo));
         calibration.pinhole = NominalPinhole(stream.width, stream.height);
     } else if (stream.topic.find("rect") != std::string::npos) {
         calibration.pinhole = camera->rectified;
@@ -133,7 +137,8 @@ Result<RosChoice> ChooseRosStreams(const RosContents& contents, const RosTopics&
         });
     };
     const auto depth_rank = [&](const RosStream& stream) {
-        return std::tuple(colour_in_frame(stream), stream.images.size(), !stream.is_compressed);
+        return std::tuple(!IsInfrared(stream), colour_in_frame(stream), stream.images.size(),
+                          !stream.is_compressed);
     };
     const auto colour_rank = [&](const RosStream& stream) {
         return std::tuple(!stream.is_grey, RosFrame(stream) == RosFrame(*choice.depth),

@@ -18,9 +18,10 @@ struct RosChoice {
     const RosStream* colour = nullptr;  // nullptr: none
 };
 
-// Depth: a topic in whose frame there is also colour, which is then registered; then the one with
-// the most images. Colour: rather than grey, of the depth's frame, and with the longest name in
-// common. `depth` is nullptr if there is none. An error if a wanted topic has no such images.
+// Depth: rather than infrared; a topic in whose frame there is also colour, which is then
+// registered; then the one with the most images. Colour: rather than grey, of the depth's frame,
+// and with the longest name in common. `depth` is nullptr if there is none. An error if a wanted
+// topic has no such images.
 Result<RosChoice> ChooseRosStreams(const RosContents& contents, const RosTopics& wanted);
 
 // Fills in the cameras, T_colour_depth, camera_known, notes and warnings.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/printable.h"
 #include "recordings/ros_images.h"
@@ -33,6 +34,14 @@ RosCamera CameraOf(const RosCameraInfo& info) {
     camera.warning = std::move(lens.warning);
     return camera;
 }
+
+// Zeros stand for none: "clients may assume that K[0] == 0.0 indicates an uncalibrated camera"
+// (sensor_msgs/CameraInfo.msg).
+bool HasCalibration(const RosCameraInfo& info) {
+    return info.k[0] != 0 && info.width > 0 && info.height > 0;
+}
+
+bool IsGreyEncoding(std::string_view encoding) { return encoding == "mono8" || encoding == "8UC1"; }
 
 // CDR begins with 0.
 bool IsZstd(ByteView message) {
@@ -77,34 +86,33 @@ class RosScan {
         if (stream == contents_.streams.end()) {
             constexpr std::size_t kMostTopics = 1000;
             if (contents_.streams.size() >= kMostTopics) return;
-            contents_.streams.push_back(FirstImage(topic, place));
+            contents_.streams.emplace_back();
             stream = std::prev(contents_.streams.end());
+            stream->topic = topic.name;
+            stream->serialisation = topic.serialisation;
+            stream->is_compressed = topic.type == "sensor_msgs/CompressedImage";
         }
-        if (stream->width > 0) stream->images.push_back({header->stamp_s, number_, place});
+        constexpr std::size_t kMostTried = 5;  // the first ones may be damaged
+        if (stream->width <= 0 && stream->images.size() < kMostTried) DescribeBy(place, *stream);
+        stream->images.push_back({header->stamp_s, number_, place});
     }
 
-    // Width 0 if its images are of no use.
-    RosStream FirstImage(const MessageTopic& topic, const MessagePlace& place) {
-        RosStream stream;
-        stream.topic = topic.name;
-        stream.serialisation = topic.serialisation;
-        if (!file_.Read(place, message_).ok()) return stream;
-        stream.is_compressed = topic.type == "sensor_msgs/CompressedImage";
+    void DescribeBy(const MessagePlace& place, RosStream& stream) {
+        stream.unread = "its first messages are damaged";
+        if (!file_.Read(place, message_).ok()) return;
         if (stream.is_compressed)
             DescribeCompressed(stream);
-        else if (const auto image = ParseImage(topic.serialisation, message_))
+        else if (const auto image = ParseImage(stream.serialisation, message_))
             Describe(*image, stream);
-        return stream;
     }
-    void Describe(const RosImage& image, RosStream& stream) {
+    static void Describe(const RosImage& image, RosStream& stream) {
         stream.is_depth = IsDepthEncoding(image.encoding);
         if (!stream.is_depth && !IsColourEncoding(image.encoding)) {
-            contents_.notes.push_back(fmt::format("{}: images in the encoding '{}' are not read",
-                                                  stream.topic,
-                                                  Printable(image.encoding, kQuotedBytes)));
+            stream.unread = fmt::format("images in the encoding '{}' are not read",
+                                        Printable(image.encoding, kQuotedBytes));
             return;
         }
-        stream.is_grey = image.encoding == "mono8" || image.encoding == "8UC1";
+        stream.is_grey = IsGreyEncoding(image.encoding);
         stream.frame_id = std::string(image.header.frame_id);
         stream.width = static_cast<int>(image.width);
         stream.height = static_cast<int>(image.height);
@@ -119,6 +127,16 @@ class RosScan {
         stream.is_depth = image->format.find("compressedDepth") != std::string_view::npos ||
                           stream.topic.ends_with("/compressedDepth");
         stream.depth_scale = RosDepthScale(image->format);
+        // compressed_image_transport puts the encoding first: "mono8; jpeg compressed ".
+        const std::string_view encoding = image->format.substr(0, image->format.find(';'));
+        stream.is_grey = IsGreyEncoding(encoding);
+        const std::string format = Printable(image->format, kQuotedBytes);
+        if (!stream.is_depth && IsDepthEncoding(encoding)) {
+            stream.unread = fmt::format(
+                "images in the format '{}' are not read (depth only as compressedDepth)", format);
+            return;
+        }
+        stream.unread = fmt::format("its first images cannot be decoded (format '{}')", format);
         if (stream.is_depth && DecodeRosDepth(*image, depth_).ok()) {
             stream.width = depth_.width();
             stream.height = depth_.height();
@@ -130,7 +148,8 @@ class RosScan {
 
     void TakeCamera(const MessageTopic& topic, const MessagePlace& place) {
         if (contents_.cameras.contains(topic.name) || !file_.Read(place, message_).ok()) return;
-        if (const auto info = ParseCameraInfo(topic.serialisation, message_))
+        if (const auto info = ParseCameraInfo(topic.serialisation, message_);
+            info && HasCalibration(*info))
             contents_.cameras.emplace(topic.name, CameraOf(*info));
     }
     void TakeTransforms(const MessageTopic& topic, const MessagePlace& place) {
@@ -159,20 +178,32 @@ bool HasNoStamps(const RosStream& stream) {
                                [](const RosImagePlace& image) { return image.stamp_s == 0; });
 }
 
-void StampByReceipt(RosStream& stream, std::vector<std::string>& warnings) {
-    if (!HasNoStamps(stream)) return;
-    for (RosImagePlace& image : stream.images) image.stamp_s = image.place.received_s;
-    warnings.push_back(
-        fmt::format("{}: the stamps in its headers are all zero: the times of recording are used",
-                    stream.topic));
+// A /clock that stands still or is slower than the images, for example.
+bool MostStampsRepeat(const RosStream& stream) {
+    std::set<double> stamps_s;
+    for (const RosImagePlace& image : stream.images) stamps_s.insert(image.stamp_s);
+    return 2 * stamps_s.size() < stream.images.size();
 }
 
-void SortByStamp(RosStream& stream) {
+void StampByReceipt(RosStream& stream, std::vector<std::string>& warnings) {
+    if (!HasNoStamps(stream) && !MostStampsRepeat(stream)) return;
+    for (RosImagePlace& image : stream.images) image.stamp_s = image.place.received_s;
+    warnings.push_back(fmt::format(
+        "{}: the stamps in its headers are zero or repeat: the times of recording are used",
+        stream.topic));
+}
+
+void SortByStamp(RosStream& stream, std::vector<std::string>& notes) {
+    const std::size_t all = stream.images.size();
     std::ranges::stable_sort(stream.images, {}, &RosImagePlace::stamp_s);
     const auto repeated = std::unique(
         stream.images.begin(), stream.images.end(),
         [](const RosImagePlace& a, const RosImagePlace& b) { return a.stamp_s == b.stamp_s; });
     stream.images.erase(repeated, stream.images.end());
+    if (stream.images.size() < all)
+        notes.push_back(
+            fmt::format("{}: {} of {} images have the same stamp as another and are not used",
+                        Printable(stream.topic), all - stream.images.size(), all));
 }
 
 }  // namespace
@@ -183,10 +214,13 @@ RosContents ScanRosFiles(std::span<const std::unique_ptr<MessageFile>> files) {
         if (const Status status = RosScan(*files[i], i, contents).Run(); !status.ok())
             contents.warnings.push_back(
                 fmt::format("damaged or cut off: {}; what comes before is read", status.message()));
-    std::erase_if(contents.streams, [](const RosStream& stream) { return stream.images.empty(); });
+    for (const RosStream& stream : contents.streams)
+        if (stream.width <= 0)
+            contents.notes.push_back(Printable(stream.topic) + ": " + stream.unread);
+    std::erase_if(contents.streams, [](const RosStream& stream) { return stream.width <= 0; });
     for (RosStream& stream : contents.streams) {
         StampByReceipt(stream, contents.warnings);
-        SortByStamp(stream);
+        SortByStamp(stream, contents.notes);
     }
     return contents;
 }

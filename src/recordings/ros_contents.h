@@ -1,5 +1,5 @@
 // What is in a ROS recording: its image topics, cameras and transforms. Reads only the first image
-// of each topic.
+// of each topic, or a few more where that is damaged.
 #pragma once
 
 #include <map>
@@ -28,7 +28,8 @@ struct RosStream {
     bool is_grey = false;        // neither depth nor colour
     bool is_compressed = false;  // CompressedImage
     RosSerialisation serialisation = RosSerialisation::kRos1;
-    int width = 0, height = 0;          // pixels
+    int width = 0, height = 0;          // pixels; 0: its images are of no use
+    std::string unread;                 // why they are of no use
     double depth_scale = 1000;          // stored value of one metre
     std::vector<RosImagePlace> images;  // stamps increase
 };
@@ -42,18 +43,19 @@ struct RosCamera {
 
 struct RosContents {
     std::vector<RosStream> streams;
-    std::map<std::string, RosCamera> cameras;  // by the topic of their CameraInfo
+    std::map<std::string, RosCamera> cameras;  // by the topic of their CameraInfo; none of zeros
     RosTransforms transforms;
     // RealSense's own bags: the transform from the device to the stream, by the stream's prefix,
     // "/device_0/sensor_0/Depth_0".
     std::map<std::string, Eigen::Isometry3d> realsense_extrinsics;
-    std::vector<std::string> notes;        // topics whose images are not read
+    std::vector<std::string> notes;        // images that are not read
     std::vector<std::string> warnings;     // damage, missing stamps
     bool has_compressed_messages = false;  // rosbag2's compression mode MESSAGE: not read
 };
 
-// Damage ends the walk through a file, with a warning. Where no header of a topic has a stamp, the
-// times at which its messages were recorded are taken, with a warning. At most 1000 image topics.
+// Damage ends the walk through a file, with a warning. Where no header of a topic has a stamp, or
+// more than half of them repeat another's, the times at which its messages were recorded are taken,
+// with a warning. Of images with one stamp the first is kept. At most 1000 image topics.
 RosContents ScanRosFiles(std::span<const std::unique_ptr<MessageFile>> files);
 
 }  // namespace tessera

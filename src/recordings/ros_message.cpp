@@ -49,15 +49,15 @@ class RosCursor {
         header.frame_id = Text();
         return header;
     }
-    Eigen::Isometry3d Transform() {
+    // nullopt if the numbers are no transform.
+    std::optional<Eigen::Isometry3d> Transform() {
         double values[7];
         for (double& value : values) value = Get<double>();
         Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
         const Eigen::Quaterniond q(values[6], values[3], values[4], values[5]);
         const bool rotation = std::abs(q.norm() - 1) < 1e-3;
         const Eigen::Vector3d t(values[0], values[1], values[2]);
-        ok_ = ok_ && rotation && t.allFinite();
-        if (!ok_) return T;
+        if (!ok_ || !rotation || !t.allFinite()) return std::nullopt;
         T.linear() = q.normalized().toRotationMatrix();
         T.translation() = t;
         return T;
@@ -137,11 +137,15 @@ std::optional<RosCameraInfo> ParseCameraInfo(RosSerialisation serialisation, Byt
 std::vector<RosTransform> ParseTransforms(RosSerialisation serialisation, ByteView bytes) {
     constexpr std::size_t kLeastBytes = 64;  // of a transform
     RosCursor cursor(serialisation, bytes);
-    std::vector<RosTransform> transforms(cursor.Count(kLeastBytes));
-    for (RosTransform& transform : transforms) {
+    std::vector<RosTransform> transforms;
+    for (std::uint32_t left = cursor.Count(kLeastBytes); left > 0; --left) {
+        RosTransform transform;
         transform.header = cursor.Header();
         transform.child_frame_id = cursor.Text();
-        transform.T_frame_child = cursor.Transform();
+        const auto T_frame_child = cursor.Transform();
+        if (!T_frame_child) continue;
+        transform.T_frame_child = *T_frame_child;
+        transforms.push_back(transform);
     }
     if (!cursor.ok()) transforms.clear();
     return transforms;
@@ -149,7 +153,7 @@ std::vector<RosTransform> ParseTransforms(RosSerialisation serialisation, ByteVi
 
 std::optional<Eigen::Isometry3d> ParseTransform(RosSerialisation serialisation, ByteView bytes) {
     RosCursor cursor(serialisation, bytes);
-    return IfOk(cursor, cursor.Transform());
+    return cursor.Transform();
 }
 
 }  // namespace tessera

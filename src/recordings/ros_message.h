@@ -68,7 +68,7 @@ std::optional<RosImage> ParseImage(RosSerialisation serialisation, ByteView byte
 std::optional<RosCompressedImage> ParseCompressedImage(RosSerialisation serialisation,
                                                        ByteView bytes);
 std::optional<RosCameraInfo> ParseCameraInfo(RosSerialisation serialisation, ByteView bytes);
-// tf2_msgs/TFMessage
+// tf2_msgs/TFMessage. Leaves out those whose numbers are no transform.
 std::vector<RosTransform> ParseTransforms(RosSerialisation serialisation, ByteView bytes);
 // geometry_msgs/Transform
 std::optional<Eigen::Isometry3d> ParseTransform(RosSerialisation serialisation, ByteView bytes);

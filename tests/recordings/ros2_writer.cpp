@@ -51,15 +51,6 @@ class Cdr {
     std::string bytes_{'\0', '\1', '\0', '\0'};
 };
 
-std::string CameraInfoOf(int width, int height, double f, double cx, double cy,
-                         const std::vector<double>& d, const std::string& frame) {
-    Cdr cdr;
-    cdr.Header(0, 0, frame).Put(height).Put(width).Text("plumb_bob");
-    cdr.Put(static_cast<std::uint32_t>(d.size())).Doubles(d);
-    cdr.Doubles({f, 0, cx, 0, f + 1, cy, 0, 0, 1}).Doubles(std::vector<double>(9));
-    return cdr.Doubles({f - 1, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0}).bytes();
-}
-
 template <class Pixels>
 std::string ImageOf(const Pixels& pixels, int frame, std::uint32_t late_ns,
                     const std::string& frame_id, const std::string& encoding) {
@@ -79,16 +70,7 @@ std::string RvlImageOf(int frame, const std::string& encoding) {
     Raw(data, depth.width());
     Raw(data, depth.height());
     data += RvlOf({depth.data(), depth.size()});
-    Cdr cdr;
-    cdr.Header(frame, 0, "depth_optical").Text(encoding + "; compressedDepth rvl");
-    return cdr.Put(static_cast<std::uint32_t>(data.size())).bytes() + data;
-}
-
-std::string TransformsOf() {
-    Cdr cdr;
-    cdr.Put(std::uint32_t{2}).Header(0, 0, "link").Text("depth_optical");
-    cdr.Doubles({0, 0, 0, 0, 0, 0, 1}).Header(0, 0, "link").Text("colour_optical");
-    return cdr.Doubles({0.015, 0, 0, 0, 0.6, 0, 0.8}).bytes();
+    return CompressedImageOf(frame, "depth_optical", encoding + "; compressedDepth rvl", data);
 }
 
 std::string RecordOf(int opcode, const std::string& content) {
@@ -130,9 +112,41 @@ std::string SchemaAndChannel(std::uint16_t id, const Message& message) {
 
 }  // namespace
 
+std::string DepthImageOf(int frame, const std::string& frame_id, const std::string& encoding) {
+    return ImageOf(DepthOf(frame), frame, 0, frame_id, encoding);
+}
+
+std::string CompressedImageOf(int frame, const std::string& frame_id, const std::string& format,
+                              const std::string& data) {
+    Cdr cdr;
+    cdr.Header(frame, 0, frame_id).Text(format);
+    return cdr.Put(static_cast<std::uint32_t>(data.size())).bytes() + data;
+}
+
+std::string CameraInfoOf(int width, int height, double f, double cx, double cy,
+                         const std::vector<double>& d, const std::string& frame) {
+    Cdr cdr;
+    cdr.Header(0, 0, frame).Put(height).Put(width).Text("plumb_bob");
+    cdr.Put(static_cast<std::uint32_t>(d.size())).Doubles(d);
+    cdr.Doubles({f, 0, cx, 0, f + 1, cy, 0, 0, 1}).Doubles(std::vector<double>(9));
+    return cdr.Doubles({f - 1, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0}).bytes();
+}
+
+std::string TransformsOf(const std::vector<Link>& links) {
+    Cdr cdr;
+    cdr.Put(static_cast<std::uint32_t>(links.size()));
+    for (const Link& link : links) cdr.Header(0, 0, "link").Text(link.child).Doubles(link.numbers);
+    return cdr.bytes();
+}
+
+std::vector<Link> PlainLinks() {
+    return {{"depth_optical", {0, 0, 0, 0, 0, 0, 1}},
+            {"colour_optical", {0.015, 0, 0, 0, 0.6, 0, 0.8}}};
+}
+
 std::vector<Message> PlainMessages() {
     std::vector<Message> messages{
-        {"/tf_static", "tf2_msgs/msg/TFMessage", 0, TransformsOf()},
+        {"/tf_static", "tf2_msgs/msg/TFMessage", 0, TransformsOf(PlainLinks())},
         {"/cam/depth/camera_info", "sensor_msgs/msg/CameraInfo", 0,
          CameraInfoOf(kDepthWidth, kDepthHeight, 60.5, 31.25, 23.75, std::vector<double>(5),
                       "depth_optical")},

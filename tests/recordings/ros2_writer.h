@@ -2,6 +2,7 @@
 // SQLite schema. No program in Debian writes them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,22 @@ std::vector<Message> PlainMessages();
 // a / (stored - b) metres of stored = DepthOf, with a = kInverseA, b = kInverseB.
 std::vector<Message> RvlMessages(bool floats);
 inline constexpr float kInverseA = 2000, kInverseB = -1000;
+
+// The data of single messages. DepthOf(frame) in another encoding of 16 bits:
+std::string DepthImageOf(int frame, const std::string& frame_id, const std::string& encoding);
+std::string CompressedImageOf(int frame, const std::string& frame_id, const std::string& format,
+                              const std::string& data);
+// P has f - 1 and f where K has f and f + 1.
+std::string CameraInfoOf(int width, int height, double f, double cx, double cy,
+                         const std::vector<double>& d, const std::string& frame);
+// From "link" to a child frame: x y z, and the rotation qx qy qz qw.
+struct Link {
+    std::string child;
+    std::vector<double> numbers;
+};
+std::string TransformsOf(const std::vector<Link>& links);
+// Those of the recordings.
+std::vector<Link> PlainLinks();
 
 // `compression`: "", "lz4" or "zstd". A chunk holds four messages.
 std::string McapOf(const std::vector<Message>& messages, const std::string& compression);

@@ -79,8 +79,8 @@ TEST(RosRecording, WithoutStampsTheTimesOfRecordingCount) {
         ExpectAllImages(*recording.value());
         ASSERT_EQ(recording.value()->info().warnings.size(), 2u);
         EXPECT_EQ(recording.value()->info().warnings[0],
-                  "/cam/depth/image_raw: the stamps in its headers are all zero: the times of "
-                  "recording are used");
+                  "/cam/depth/image_raw: the stamps in its headers are zero or repeat: the times "
+                  "of recording are used");
     }
 }
 
