@@ -125,7 +125,12 @@ Status Write(const ExportArguments& a, const Content& content) {
         if (Status status = WriteColmap(a.input, content.mesh, a.colmap); !status.ok())
             return status;
     if (a.WantsTransforms()) return WriteTransforms(a.input, content.mesh, a.frames);
-    return a.frames.empty() ? Status::Ok() : ExportFrames(a.input, a.frames);
+    if (a.frames.empty()) return Status::Ok();
+    const auto notes = ExportFrames(a.input, a.frames);
+    if (!notes.ok()) return notes.status();
+    for (const std::string& note : notes.value())
+        fmt::print(stderr, "tessera: note: {}\n", Printable(note));
+    return Status::Ok();
 }
 
 Status Turn(const std::string& input, Content& content) {

@@ -18,6 +18,21 @@ Status CheckExtension(const char* option, const std::string& path, const char* e
                                      what, extension));
 }
 
+// The ROS map and the distance field both have a .yaml. No other two files can have one name.
+Status CheckNamesDiffer(const RobotMaps& maps) {
+    if (maps.ros_map.empty() || maps.distance.empty()) return Status::Ok();
+    const auto whole = [](const std::filesystem::path& path) {
+        std::error_code error;
+        const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+        return (error ? path : absolute).lexically_normal();
+    };
+    const auto beside = std::filesystem::path(maps.distance).replace_extension(".yaml");
+    if (whole(beside) != whole(maps.ros_map)) return Status::Ok();
+    return Status::Error(
+        fmt::format("--ros-map {} and --distance {}: both write {}; give one of them another name",
+                    maps.ros_map, maps.distance, beside.string()));
+}
+
 Result<CellGrid> GridOf(const RobotMaps& maps, const BlockMap& map,
                         const Eigen::Isometry3d& T_world_level) {
     Eigen::AlignedBox3d box;
@@ -43,6 +58,7 @@ Status CheckRobotMaps(const RobotMaps& maps) {
         return s;
     if (Status s = CheckExtension("--distance", maps.distance, ".npy", "a distance field"); !s.ok())
         return s;
+    if (Status s = CheckNamesDiffer(maps); !s.ok()) return s;
     if (!(maps.heights.low_m < maps.heights.high_m))
         return Status::Error(fmt::format("--heights {:g} {:g}: the second must be above the first",
                                          maps.heights.low_m, maps.heights.high_m));

@@ -30,8 +30,8 @@ struct RobotMaps {
     DistanceField::Options distances;
 };
 
-// Checks what can be checked without a map, before anything is read: extensions, resolution,
-// heights and box. Errors name the option of `tessera maps`.
+// Checks what can be checked without a map, before anything is read: extensions, names that differ,
+// resolution, heights and box. Errors name the option of `tessera maps`.
 Status CheckRobotMaps(const RobotMaps& maps);
 
 // Writes the files. `camera` and `path` (world frame) are those of the scan. `T_level_world` comes

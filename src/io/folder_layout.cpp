@@ -63,17 +63,6 @@ Result<Layout> RecogniseLayout(const fs::path& folder) {
                      "frame-000000.depth.png (7-Scenes), or camera.yaml with depth/ and rgb/"));
 }
 
-bool IsIclFolder(const fs::path& folder, Layout layout) {
-    if (layout != Layout::kLists && layout != Layout::kAssociations) return false;
-    const std::string name = FolderName(folder);
-    for (const char* part : {"living_room", "livingRoom", "office_room", "frei_png"})
-        if (name.find(part) != std::string::npos) return true;
-    if (!FindIclTruth(folder.string()).empty()) return true;
-    if (layout != Layout::kAssociations || Exists(folder / "camera.yaml")) return false;
-    const auto images = ReadAssociations((folder / "associations.txt").string());
-    return images.ok() && StampsAreFrameNumbers(images.value().pairs);
-}
-
 // TUM's lists name the recording in a comment, even if the folder was renamed: "# file:
 // 'rgbd_dataset_freiburg1_rpy.bag'".
 std::string BagName(const fs::path& folder) {
@@ -138,6 +127,23 @@ Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
         case Layout::kNamedImages: break;
     }
     return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s);
+}
+
+// Such names alone say little: other people have living rooms, too.
+bool HasIclName(const fs::path& folder) {
+    const std::string name = FolderName(folder);
+    for (const char* part : {"living_room", "livingRoom", "office_room", "frei_png"})
+        if (name.find(part) != std::string::npos) return true;
+    return false;
+}
+
+bool IsIclFolder(const fs::path& folder, Layout layout) {
+    if (layout != Layout::kLists && layout != Layout::kAssociations) return false;
+    if (!FindIclTruth(folder.string()).empty()) return true;
+    const bool by_default = layout == Layout::kAssociations && !Exists(folder / "camera.yaml");
+    if (!by_default && !HasIclName(folder)) return false;
+    const auto images = ReadPairs(folder, layout, 0, 0, 0);
+    return images.ok() && StampsAreFrameNumbers(images.value().pairs);
 }
 
 Status AddFrames(const fs::path& folder, const std::vector<ImagePair>& pairs,

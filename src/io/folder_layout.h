@@ -38,7 +38,9 @@ inline constexpr const char* kUnknownLayout = "not a known sequence layout";
 
 // Layouts are tried in this order:
 // - TUM RGB-D: rgb.txt and depth.txt.
-// - associations.txt with lines "stamp file stamp file"; ICL-NUIM uses this. Stamps are kept as
+// - associations.txt with lines "stamp file stamp file"; ICL-NUIM uses this. A folder with lists is
+//   ICL-NUIM's if it has a NAME.gt.freiburg, or if its stamps are frame numbers and either it has
+//   ICL-NUIM's name ("living_room", ...) or associations.txt and no camera.yaml. Stamps are kept as
 //   they are, so ICL-NUIM's are frame numbers, as in its ground truth. Its poses are in a y-up,
 //   left-handed world (hence its negative fy). They are reflected into ours:
 //   T_world_camera = M T M with M = diag(1, -1, 1).

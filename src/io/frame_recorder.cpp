@@ -38,6 +38,10 @@ Result<std::unique_ptr<FrameRecorder>> FrameRecorder::Create(const std::string& 
 }
 
 Status FrameRecorder::Start() {
+    if (!source_.has_colour)
+        return Status::Error(
+            fmt::format("{}: cannot be recorded: it has no colour, which a recorded folder needs",
+                        source_.name));
     std::error_code ignored;
     for (const char* name : {"/depth.txt", "/rgb.txt", "/camera.yaml"})
         if (std::filesystem::exists(folder_ + name, ignored))

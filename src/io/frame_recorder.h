@@ -31,7 +31,8 @@ struct RecordConfig {
 // Owner thread only. After an error, every further Add returns it.
 class FrameRecorder {
   public:
-    // Creates the folder. Refuses a folder that already contains a recording or is not writable.
+    // Creates the folder. Refuses a source without colour, because folders are read with both
+    // images, and a folder that already contains a recording or is not writable.
     static Result<std::unique_ptr<FrameRecorder>> Create(const std::string& folder,
                                                          const SourceInfo& source,
                                                          const RecordConfig& config = {});

@@ -51,6 +51,7 @@ struct SourceInfo {
     double depth_readout_s = 0, colour_readout_s = 0;
     bool rectified = false;       // a lens was corrected, or colour registered to depth
     bool lens_corrected = false;  // the former
+    bool has_colour = true;       // false: no frame has colour; true: some may have
     bool has_truth = false;
     // Things the user should know: unpaired images, repeated stamps, ...
     std::vector<std::string> notes;

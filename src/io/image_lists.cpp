@@ -4,9 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <span>
-#include <string_view>
 
 #include "core/input_file.h"
 #include "io/stamp_pairing.h"
@@ -38,10 +36,9 @@ std::vector<std::string_view> SplitWords(std::string_view line) {
 std::optional<double> ParseStamp(std::string_view word) {
     double stamp_s = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), stamp_s);
-    if (error != std::errc() || end != word.data() + word.size() ||
-        !(std::abs(stamp_s) <= kLatestStamp_s))
-        return std::nullopt;
-    return stamp_s;
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    if (std::abs(stamp_s) <= kLatestStamp_s) return stamp_s;
+    return StampOfDigits_s(word);
 }
 
 // Passes each line's words to `use`, which returns whether they have the expected form. Reports in
@@ -124,6 +121,19 @@ bool NamesDepth(std::string_view name) {
 }
 
 }  // namespace
+
+std::optional<double> StampOfDigits_s(std::string_view digits) {
+    constexpr std::size_t kSecondsDigits = 10;  // from 2001 to 2286
+    if ((digits.size() != 13 && digits.size() != 16 && digits.size() != 19) ||
+        digits.find_first_not_of("0123456789") != std::string_view::npos)
+        return std::nullopt;
+    std::string decimal(digits);
+    decimal.insert(kSecondsDigits, 1, '.');
+    double stamp_s = 0;
+    const auto parsed = std::from_chars(decimal.data(), decimal.data() + decimal.size(), stamp_s);
+    TESSERA_CHECK(parsed.ec == std::errc(), "{}", decimal);
+    return stamp_s;
+}
 
 Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::string& colour_list,
                                   double max_gap_s, double colour_delay_s) {

@@ -1,7 +1,9 @@
 // Image lists of recordings: TUM's rgb.txt and depth.txt, and associations.txt.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/status.h"
@@ -20,11 +22,16 @@ struct ImagePairs {
     std::size_t listed = 0;          // depth images that were there to be paired
 };
 
+// A time since 1970 as a whole number of 13, 16 or 19 digits, which are milli-, micro- or
+// nanoseconds: the seconds nearest to it. nullopt for other texts.
+std::optional<double> StampOfDigits_s(std::string_view digits);
+
 // Reads two lists of lines "stamp filename" ('#' starts a comment; the name may contain blanks) and
-// pairs them by nearest time (stamp_pairing.h). Malformed lines and repeated stamps are skipped,
-// unordered lists are sorted; each is reported in the notes. It is an error if a list has no usable
-// line, or if no two images are less than max_gap_s apart (0: PairGap). `colour_delay_s`: colour
-// was taken so much later than its stamps say; the stamps are not changed.
+// pairs them by nearest time (stamp_pairing.h). Stamps are in seconds, or whole numbers as
+// StampOfDigits_s reads them. Malformed lines and repeated stamps are skipped, unordered lists are
+// sorted; each is reported in the notes. It is an error if a list has no usable line, or if no two
+// images are less than max_gap_s apart (0: PairGap). `colour_delay_s`: colour was taken so much
+// later than its stamps say; the stamps are not changed.
 Result<ImagePairs> ReadImageLists(const std::string& depth_list, const std::string& colour_list,
                                   double max_gap_s, double colour_delay_s = 0);
 

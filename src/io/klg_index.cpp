@@ -47,7 +47,9 @@ Result<KlgIndex> ReadKlgIndex(const InputFile& file, const PinholeCamera& camera
     KlgIndex index;
     std::vector<KlgEntry> entries;
     std::uint64_t at = sizeof(count);
-    while (std::ssize(entries) < count && at + sizeof(KlgHeader) <= file.size()) {
+    // The logger writes the count when it closes the log; until then it is 0.
+    const bool unclosed = count == 0;
+    while ((unclosed || std::ssize(entries) < count) && at + sizeof(KlgHeader) <= file.size()) {
         KlgHeader header;
         if (Status status = file.ReadAt(at, BytesOf(header)); !status.ok()) return status;
         if (!header.Fits(camera)) {
@@ -72,7 +74,10 @@ Result<KlgIndex> ReadKlgIndex(const InputFile& file, const PinholeCamera& camera
         entries.push_back(entry);
     }
     const std::size_t whole = entries.size();
-    if (std::ssize(entries) < count)
+    if (unclosed)
+        index.warnings.push_back(
+            fmt::format("the log was not closed; {} frames were found", whole));
+    else if (std::ssize(entries) < count)
         index.warnings.push_back(
             fmt::format("the log is truncated: {} of its {} frames are present", whole, count));
     index.entries = WithIncreasingStamps(entries);

@@ -21,9 +21,10 @@ struct KlgIndex {
     std::vector<std::string> warnings;
 };
 
-// Walks from header to header. Allocates only for frames that are present, not for the number the
-// file claims, and ends at a frame that is larger than the camera's frames can be. Of stamps that
-// do not increase, as few as possible are dropped. It is an error if no frame is left.
+// Walks from header to header, up to the end of a log that was not closed (a count of 0). Allocates
+// only for frames that are present, not for the number the file claims, and ends at a frame that is
+// larger than the camera's frames can be. Of stamps that do not increase, as few as possible are
+// dropped. It is an error if no frame is left.
 Result<KlgIndex> ReadKlgIndex(const InputFile& file, const PinholeCamera& camera);
 
 }  // namespace tessera

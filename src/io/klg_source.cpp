@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -51,6 +52,8 @@ class KlgSource : public FrameSource {
         info_.depth_units_per_m = calibration.depth_scale;
         info_.rectified = decoder_.rectifies();
         info_.lens_corrected = decoder_.corrects_lens();
+        info_.has_colour =
+            std::ranges::any_of(entries_, [](const KlgEntry& e) { return e.colour_bytes > 0; });
         info_.notes = std::move(notes);
         info_.warnings = std::move(index.warnings);
     }

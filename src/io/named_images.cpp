@@ -36,21 +36,15 @@ std::vector<std::string> ImageNames(const fs::path& folder) {
     return names;
 }
 
-// "1305031229.528748" is in seconds; 13, 16 and 19 digits are milli-, micro- and nanoseconds since
-// 1970.
+// "1305031229.528748" is in seconds.
 std::optional<double> StampInName(const std::string& name) {
     const std::string stem = fs::path(name).stem().string();
+    if (stem.find('.') == std::string::npos) return StampOfDigits_s(stem);
     double value = 0;
     const auto [end, error] =
         std::from_chars(stem.data(), stem.data() + stem.size(), value, std::chars_format::fixed);
     if (error != std::errc() || end != stem.data() + stem.size()) return std::nullopt;
-    if (stem.find('.') != std::string::npos) return value;
-    switch (stem.size()) {
-        case 13: return value * 1e-3;
-        case 16: return value * 1e-6;
-        case 19: return value * 1e-9;
-        default: return std::nullopt;
-    }
+    return value;
 }
 
 // The last run of digits in the name.

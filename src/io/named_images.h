@@ -21,10 +21,10 @@ struct ImageFolders {
 ImageFolders FindImageFolders(const std::string& folder);
 
 // Pairs the images of two subfolders by name. If the names are stamps (seconds with a decimal
-// point, or 13, 16 or 19 digits of milli-, micro- or nanoseconds), pairs by time (PairGap).
-// Otherwise pairs by the last number in the names, with stamps number / fps. If names have no
-// number, pairs in alphabetical order. Unpaired images are reported in the notes; if there are no
-// pairs, that is an error.
+// point, or whole numbers as StampOfDigits_s reads them), pairs by time (PairGap). Otherwise pairs
+// by the last number in the names, with stamps number / fps. If names have no number, pairs in
+// alphabetical order. Unpaired images are reported in the notes; if there are no pairs, that is an
+// error.
 Result<ImagePairs> PairByName(const std::string& folder, const ImageFolders& folders, double fps,
                               double max_gap_s);
 

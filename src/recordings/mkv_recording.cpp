@@ -167,7 +167,8 @@ std::vector<StampPair> PairMkvImages(const MkvIndex& index, const MkvImages& dep
     for (const double stamp_s : depth_s) info.pairs.push_back({stamp_s, stamp_s});
     if (info.fps == 0) info.fps = MedianFps(info.pairs, kUsualMkvFps);
     std::vector<StampPair> pairs;
-    if (colour.blocks.empty()) {
+    info.has_colour = !colour.blocks.empty();
+    if (!info.has_colour) {
         for (std::size_t i = 0; i < depth_s.size(); ++i) pairs.push_back({i, 0});
         return pairs;
     }

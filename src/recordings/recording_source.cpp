@@ -83,6 +83,7 @@ class RecordingSource : public FrameSource {
         info_.depth_units_per_m = recorded_.depth_camera.depth_scale;
         info_.rectified = rectifier_.active();
         info_.lens_corrected = rectifier_.corrects_lens();
+        info_.has_colour = recorded_.has_colour;
         info_.notes = recorded_.notes;
         info_.warnings = recorded_.warnings;
     }

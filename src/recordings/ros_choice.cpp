@@ -163,6 +163,7 @@ void FindRosCameras(const RosContents& contents, const RosChoice& choice, Record
     NoteUnused(contents, choice, info);
     if (choice.colour == nullptr) {
         info.colour_camera = info.depth_camera;
+        info.has_colour = false;
         info.notes.push_back(fmt::format("depth from {}; no colour images", choice.depth->topic));
         return;
     }

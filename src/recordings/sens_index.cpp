@@ -213,6 +213,7 @@ Result<SensIndex> ReadSensIndex(const InputFile& file) {
     info.depth_camera = SensCamera(header.depth_intrinsic, header.depth_width, header.depth_height,
                                    header.depth_shift);
     info.colour_camera = info.depth_camera;
+    info.has_colour = index.has_colour;
     if (index.has_colour) {
         info.colour_camera = SensCamera(header.colour_intrinsic, header.colour_width,
                                         header.colour_height, header.depth_shift);

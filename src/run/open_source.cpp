@@ -74,6 +74,14 @@ bool IsLiveSource(const std::string& name) {
     return name.starts_with(kOpenniPrefix) || name.starts_with(kPipePrefix);
 }
 
+void UseCamera(const PinholeCamera& camera, RunConfig& config) {
+    config.source.camera = camera;
+    config.openni.fx = camera.fx;
+    config.openni.fy = camera.fy;
+    config.openni.cx = camera.cx;
+    config.openni.cy = camera.cy;
+}
+
 Result<std::unique_ptr<FrameSource>> OpenSource(const std::string& name, const RunConfig& config,
                                                 const std::atomic<bool>* stop) {
     Result<std::unique_ptr<FrameSource>> opened = OpenAsItIs(name, config, stop);

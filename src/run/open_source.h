@@ -14,6 +14,9 @@ namespace tessera {
 // Whether the source is a camera, which does not wait for the program.
 bool IsLiveSource(const std::string& name);
 
+// Overrides the pinhole that a source of any kind says it has.
+void UseCamera(const PinholeCamera& camera, RunConfig& config);
+
 // "synthetic:NAME", "synthetic:FILE.obj" (a model), "openni2:[URI]" (a camera), "FILE.oni",
 // "pipe:-", "pipe:PATH" (frames from another program), "FILE.klg", "FILE.scan", or a folder of
 // images. `stop`, if given, ends the wait for a program that sends frames. Errors name the source

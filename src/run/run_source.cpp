@@ -11,7 +11,7 @@ RunConfig SourceSettings(const RunRecord& run) {
     for (const auto& [key, value] : run.configuration)
         if (key.starts_with("source.") || key.starts_with("synthetic."))
             static_cast<void>(parameters.Set(key, value));
-    config.source.camera = run.camera;
+    if (run.camera) UseCamera(*run.camera, config);
     config.source.vignetting = run.vignetting;
     config.source.colour_delay_s = run.colour_delay_s;
     config.source.colour_shift_px = {run.colour_shift_px[0], run.colour_shift_px[1]};

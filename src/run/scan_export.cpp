@@ -34,6 +34,51 @@ std::string MapText(const ScanContent& scan) {
         scan.meta.truncation_m, scan.progress.labels ? ", with labels" : "");
 }
 
+// Writes each session's frames to a folder of its own, because a recording's stamps increase.
+class SessionFolders {
+  public:
+    SessionFolders(std::string scan_path, std::string first, SourceInfo source)
+        : scan_path_(std::move(scan_path)), first_(std::move(first)), source_(std::move(source)) {}
+
+    Status Add(const Frame& frame) {
+        if (recorder_ == nullptr || frame.stamp_s <= last_stamp_s_)
+            if (Status status = Begin(frame); !status.ok()) return status;
+        last_stamp_s_ = frame.stamp_s;
+        return recorder_->Add(frame);
+    }
+    // Returns where the later sessions are.
+    Result<std::vector<std::string>> Finish() {
+        if (recorder_ != nullptr)
+            if (Status status = recorder_->Finish(); !status.ok()) return status;
+        return std::move(notes_);
+    }
+
+  private:
+    Status Begin(const Frame& frame) {
+        std::string folder = first_;
+        if (recorder_ != nullptr) {
+            if (Status status = recorder_->Finish(); !status.ok()) return status;
+            // "a/" becomes "a_2".
+            folder = fmt::format(
+                "{}_{}", (std::filesystem::path(first_) / "").parent_path().string(), ++session_);
+            notes_.push_back(
+                fmt::format("{}: the clock starts again at frame {}; the rest is in {}", scan_path_,
+                            frame.index, folder));
+        }
+        Result<std::unique_ptr<FrameRecorder>> recorder = FrameRecorder::Create(folder, source_);
+        if (!recorder.ok()) return recorder.status();
+        recorder_ = std::move(recorder.value());
+        return Status::Ok();
+    }
+
+    const std::string scan_path_, first_;
+    const SourceInfo source_;
+    std::unique_ptr<FrameRecorder> recorder_;
+    std::vector<std::string> notes_;
+    double last_stamp_s_ = 0;
+    int session_ = 1;
+};
+
 }  // namespace
 
 RunConfig ConfigOf(const ScanMeta& meta) {
@@ -72,19 +117,32 @@ Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path,
     return MeshOfScan(scan.value());
 }
 
-Status ExportFrames(const std::string& scan_path, const std::string& folder) {
+Result<std::vector<std::string>> ExportFrames(const std::string& scan_path,
+                                              const std::string& folder) {
     Result<std::unique_ptr<FrameSource>> source = ScanSource::Open(scan_path);
     if (!source.ok()) return source.status();
-    Result<std::unique_ptr<FrameRecorder>> recorder =
-        FrameRecorder::Create(folder, source.value()->info());
-    if (!recorder.ok()) return recorder.status();
+    SessionFolders folders(scan_path, folder, source.value()->info());
+    std::int64_t damaged = 0;
+    std::string first_damaged;
     Frame frame;
-    while (true) {
-        const ReadResult read = source.value()->Read(frame);
-        if (read.status == ReadStatus::kEnd) return recorder.value()->Finish();
-        if (read.status != ReadStatus::kOk) return Status::Error(read.message);
-        if (Status status = recorder.value()->Add(frame); !status.ok()) return status;
+    ReadResult read;
+    while ((read = source.value()->Read(frame)).status != ReadStatus::kEnd) {
+        if (read.status == ReadStatus::kOk) {
+            if (Status status = folders.Add(frame); !status.ok()) return status;
+        } else if (read.status == ReadStatus::kSkip) {
+            if (damaged++ == 0) first_damaged = read.message;
+        } else {
+            return Status::Error(read.message);
+        }
     }
+    Result<std::vector<std::string>> notes = folders.Finish();
+    if (!notes.ok()) return notes;
+    if (damaged == source.value()->info().frame_count)
+        return Status::Error(first_damaged + "; no frame can be exported");
+    if (damaged > 0)
+        notes.value().push_back(fmt::format("{} of {} frames are left out ({})", damaged,
+                                            source.value()->info().frame_count, first_damaged));
+    return notes;
 }
 
 Result<std::string> DescribeScan(const std::string& path) {

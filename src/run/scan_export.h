@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/mesh.h"
 #include "core/status.h"
@@ -22,9 +23,12 @@ Result<TriangleMesh> MeshOfScan(ScanContent& scan);
 Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path,
                                     std::vector<Eigen::Isometry3d>* path);
 
-// Writes the stored raw frames to a new folder (TUM layout). An error if there are none; it says
-// how to keep them.
-Status ExportFrames(const std::string& scan_path, const std::string& folder);
+// Writes the stored raw frames to a new folder (TUM layout). Where the clock starts again, as in
+// another session, the frames go on in a folder of their own: FOLDER_2 and so on. Damaged frames
+// are left out. Returns what the user should know of both; usually nothing. An error if there are
+// no frames; it says how to keep them.
+Result<std::vector<std::string>> ExportFrames(const std::string& scan_path,
+                                              const std::string& folder);
 
 // A few lines of text. Reads and checks the whole file.
 Result<std::string> DescribeScan(const std::string& path);

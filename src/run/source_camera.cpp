@@ -28,13 +28,7 @@ bool IsFileOrFolder(const std::string& name) {
 // Opens the source with `camera` instead of the given one.
 Result<std::unique_ptr<FrameSource>> OpenWith(const std::string& name, RunConfig config,
                                               const std::optional<PinholeCamera>& camera) {
-    if (camera) {
-        config.source.camera = camera;
-        config.openni.fx = camera->fx;
-        config.openni.fy = camera->fy;
-        config.openni.cx = camera->cx;
-        config.openni.cy = camera->cy;
-    }
+    if (camera) UseCamera(*camera, config);
     return OpenSource(name, config);
 }
 

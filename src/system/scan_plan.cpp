@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace tessera {
 namespace {
@@ -26,6 +27,12 @@ Status CheckCamera(const std::string& path, const ScanMeta& meta, const SourceIn
         "{}: was made with a camera of {} x {}, fx {:.2f}, but {} has {} x {}, fx {:.2f}; use the "
         "same camera, or start another scan",
         path, was.width, was.height, was.fx, source.name, is.width, is.height, is.fx));
+}
+
+// A recording may be named in several ways: d, d/, ./d or by its whole path.
+bool IsSameSource(const std::string& a, const std::string& b) {
+    std::error_code no_file;
+    return a == b || std::filesystem::equivalent(a, b, no_file);
 }
 
 }  // namespace
@@ -126,7 +133,7 @@ Result<ScanPlan> OpenToLocalise(const std::string& path, const SourceInfo& sourc
 FrameSelection RestOf(const FrameSelection& selection, const SourceInfo& source,
                       const ScanContent& resumed) {
     const std::int64_t last = resumed.progress.last_index;
-    if (source.live || source.name != resumed.source_name || last < selection.start ||
+    if (source.live || !IsSameSource(source.name, resumed.source_name) || last < selection.start ||
         selection.stride < 1)
         return selection;
     FrameSelection rest = selection;

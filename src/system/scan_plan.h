@@ -40,7 +40,8 @@ Result<ScanPlan> ResumeScan(const std::string& path, const SourceInfo& source,
 Result<ScanPlan> OpenToLocalise(const std::string& path, const SourceInfo& source,
                                 const RunConfig& config);
 
-// The part of a recorded source that the scan does not have yet. Count 0 if none is left.
+// The part of a recorded source that the scan does not have yet. Count 0 if none is left. Of a file
+// or folder any name will do.
 FrameSelection RestOf(const FrameSelection& selection, const SourceInfo& source,
                       const ScanContent& resumed);
 

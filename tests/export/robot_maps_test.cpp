@@ -78,6 +78,23 @@ TEST_F(RobotMapFiles, ABoxLimitsTheMaps) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.bt"));
 }
 
+TEST_F(RobotMapFiles, NoFileIsWrittenTwice) {
+    const auto check = [](const std::string& ros_map, const std::string& distance) {
+        RobotMaps maps;
+        maps.ros_map = ros_map;
+        maps.distance = distance;
+        return CheckRobotMaps(maps).message();
+    };
+    EXPECT_EQ(
+        check("a/room.yaml", "a/room.npy"),
+        "--ros-map a/room.yaml and --distance a/room.npy: both write a/room.yaml; give one of "
+        "them another name");
+    EXPECT_NE(check("./room.yaml", "a/../room.npy"), "");
+    EXPECT_NE(check(std::filesystem::absolute("room.yaml").string(), "room.npy"), "");
+    EXPECT_EQ(check("room.yaml", "a/room.npy"), "");
+    EXPECT_EQ(check("room.yaml", "room_esdf.npy"), "");
+}
+
 TEST_F(RobotMapFiles, ErrorsNameTheOption) {
     const auto expect = [&](const std::function<void(RobotMaps&)>& change, const char* text) {
         RobotMaps maps;

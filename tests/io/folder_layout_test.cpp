@@ -114,6 +114,23 @@ TEST(ReadFolderLayout, RecognisesIclNuim) {
     EXPECT_EQ(layout.value().frames[1].depth_stamp_s, 1.0);
 }
 
+TEST(ReadFolderLayout, TheNameOfALivingRoomIsNotEnoughForIclNuim) {
+    for (const char* name : {"living_room_2024", "livingRoom", "office_room", "my_frei_png"}) {
+        TemporaryFolder folder(name);
+        WriteTumLists(folder);
+        folder.WriteText("depth.txt", "1.5 depth/1.png\n2.5 depth/2.png\n");
+        folder.WriteText("rgb.txt", "1.5 rgb/1.png\n2.5 rgb/2.png\n");
+        EXPECT_EQ(Read(folder).value().kind, "TUM RGB-D folder") << name;
+        EXPECT_FALSE(Read(folder).value().camera_known) << name;
+        folder.WriteText("livingRoom0.gt.freiburg", "1 0 0 0 0 0 0 1\n");
+        EXPECT_EQ(Read(folder).value().kind, "ICL-NUIM folder") << name;
+        std::filesystem::remove(folder.Path("livingRoom0.gt.freiburg"));
+        WriteTumLists(folder);  // stamps 1.0 and 2.0: frame numbers
+        EXPECT_EQ(Read(folder).value().kind, "ICL-NUIM folder") << name;
+        EXPECT_EQ(Read(folder).value().calibration.pinhole.fx, 481.2) << name;
+    }
+}
+
 TEST(ReadFolderLayout, AssociationsWithTimesAreOfAnUnknownCamera) {
     TemporaryFolder folder;
     folder.WriteText("associations.txt", "0.25 depth/0.png 0.25 rgb/0.png\n");

@@ -104,6 +104,15 @@ TEST(FrameRecorder, NeverOverwritesARecording) {
     EXPECT_FALSE(FrameRecorder::Create(folder.Path("file"), SomeSource()).ok());
 }
 
+TEST(FrameRecorder, ASourceWithoutColourIsRefusedBeforeAnythingIsWritten) {
+    TemporaryFolder folder;
+    SourceInfo source = SomeSource();
+    source.has_colour = false;
+    EXPECT_EQ(FrameRecorder::Create(folder.Path("scan"), source).message(),
+              "camera: cannot be recorded: it has no colour, which a recorded folder needs");
+    EXPECT_FALSE(std::filesystem::exists(folder.Path("scan")));
+}
+
 TEST(FrameRecorder, FramesThatDoNotFitAreRefusedByName) {
     TemporaryFolder folder;
     Frame small = SomeFrame(1), grey = SomeFrame(1), late = SomeFrame(0);

@@ -45,6 +45,31 @@ TEST(ReadImageLists, StampsThatAreNoTimeAreSkipped) {
     EXPECT_EQ(images.value().notes.size(), 1u);
 }
 
+TEST(ReadImageLists, WholeNumbersMayBeMilliMicroOrNanoseconds) {
+    TemporaryFolder folder;
+    const auto images = ReadLists(
+        folder, "1700000000123456789 d1\n1700000000223456 d2\n1700000000323 d3\n1700000001 d4\n",
+        "1700000000123 c1\n1700000000.223 c2\n1700000000323000000 c3\n1700000001 c4\n");
+    ASSERT_TRUE(images.ok()) << images.message();
+    EXPECT_TRUE(images.value().notes.empty());
+    const std::vector<ImagePair>& pairs = images.value().pairs;
+    ASSERT_EQ(pairs.size(), 4u);
+    EXPECT_EQ(pairs[0].depth_stamp_s, 1700000000.123456789);
+    EXPECT_EQ(pairs[0].colour_stamp_s, 1700000000.123);
+    EXPECT_EQ(pairs[1].depth_stamp_s, 1700000000.223456);
+    EXPECT_EQ(pairs[2].depth_stamp_s, 1700000000.323);
+    EXPECT_EQ(pairs[2].colour_stamp_s, 1700000000.323);
+    EXPECT_EQ(pairs[3].depth_stamp_s, 1700000001);
+    EXPECT_EQ(StampOfDigits_s("1403636579763555584"), 1403636579.763555584);
+    EXPECT_EQ(StampOfDigits_s("1700000000123"), 1700000000.123);
+}
+
+TEST(StampOfDigits, OtherTextsAreNone) {
+    for (const char* text : {"", "1700000000", "17000000001234", "170000000012.", "-170000000012",
+                             "170000000012x", "1.700000000e+09", "17000000001234567890"})
+        EXPECT_FALSE(StampOfDigits_s(text)) << text;
+}
+
 TEST(ReadImageLists, SkipsAndNotesWhatIsNoLine) {
     TemporaryFolder folder;
     const auto images =

@@ -93,6 +93,7 @@ TEST_F(Klg, DepthAndColourRawAndPacked) {
     EXPECT_EQ(klg.info().frame_count, 4);
     EXPECT_TRUE(klg.info().notes.empty());
     EXPECT_EQ(klg.info().camera.fx, 30);
+    EXPECT_TRUE(klg.info().has_colour);
     for (int i = 0; i < 4; ++i) {
         ASSERT_EQ(klg.Read(frame).status, ReadStatus::kOk) << i;
         EXPECT_EQ(frame.index, i);
@@ -132,6 +133,20 @@ TEST_F(Klg, WhatWasCutOffOrDoesNotGrowIsNoted) {
         EXPECT_NE(source.value()->info().warnings[0].find("2 of its 3"), std::string::npos);
         EXPECT_NE(source.value()->info().warnings[1].find("1 of 2"), std::string::npos);
     }
+}
+
+TEST_F(Klg, ALogThatWasNotClosedIsReadToItsEnd) {
+    const std::string frames = FrameOf(10, Depth(1), "") + FrameOf(20, Depth(2), "");
+    for (const std::string& cut : {std::string(), FrameOf(30, Depth(3), "").substr(0, 100)}) {
+        Write(0, frames + cut);
+        const auto source = Open();
+        ASSERT_TRUE(source.ok()) << source.message();
+        EXPECT_EQ(source.value()->info().frame_count, 2);
+        EXPECT_EQ(source.value()->info().warnings,
+                  std::vector<std::string>{"the log was not closed; 2 frames were found"});
+    }
+    Write(0, "");
+    EXPECT_EQ(Open().message(), folder.Path("a.klg") + ": contains no complete frame");
 }
 
 TEST_F(Klg, OneDamagedStampCostsOneFrame) {
@@ -226,6 +241,7 @@ TEST_F(Klg, WithoutACameraFileTheUsualOneIsAssumedAndNoted) {
     ASSERT_TRUE(source.ok()) << source.message();
     EXPECT_EQ(source.value()->info().camera.fx, 528);
     ASSERT_EQ(source.value()->info().notes.size(), 1u);
+    EXPECT_FALSE(source.value()->info().has_colour);
     ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
     EXPECT_FLOAT_EQ(frame.depth_m(639, 479), 0.257f);
 }

@@ -56,7 +56,8 @@ TEST(PairByName, ReadsNanoseconds) {
     Touch(folder, {"depth/1403636579763555584.png", "rgb/1403636579763000000.png"});
     const auto images = Pair(folder);
     ASSERT_TRUE(images.ok()) << images.message();
-    EXPECT_NEAR(images.value().pairs[0].depth_stamp_s, 1403636579.763555584, 1e-6);
+    EXPECT_EQ(images.value().pairs[0].depth_stamp_s, 1403636579.763555584);
+    EXPECT_EQ(images.value().pairs[0].colour_stamp_s, 1403636579.763);
 }
 
 TEST(PairByName, PairsByOrderWhereNamesHaveNoNumbers) {

@@ -89,6 +89,7 @@ TEST_F(MkvRecordings, DepthWithoutColour) {
     const auto recording = WriteAndOpen();
     ASSERT_TRUE(recording.ok()) << recording.message();
     EXPECT_TRUE(Mentions(recording.value()->info().notes, "no colour"));
+    EXPECT_FALSE(recording.value()->info().has_colour);
     ASSERT_EQ(recording.value()->info().pairs.size(), 6u);
     ASSERT_TRUE(recording.value()->Load(4, depth, colour).ok());
     EXPECT_TRUE(depth == MkvTestDepth(4));

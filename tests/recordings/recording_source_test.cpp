@@ -70,6 +70,14 @@ TEST(RecordingSource, DeliversFramesInMetresAndSkipsBadOnes) {
     EXPECT_FALSE(source->Seek(11));
 }
 
+TEST(RecordingSource, SaysWhetherThereIsColour) {
+    for (const bool has_colour : {false, true}) {
+        auto recording = std::make_unique<MadeUpRecording>();
+        recording->info_.has_colour = has_colour;
+        EXPECT_EQ(MadeUpSource(std::move(recording))->info().has_colour, has_colour);
+    }
+}
+
 TEST(RecordingSource, CorrectsTheTimeStamps) {
     const auto source =
         MadeUpSource(std::make_unique<MadeUpRecording>(), {.colour_delay_s = -0.006});

@@ -157,6 +157,18 @@ TEST(RosRecording, CountsDepthImagesWithoutColour) {
         "1 of 5 depth images have no colour image near enough in time"));
 }
 
+TEST(RosRecording, SaysThatThereIsNoColour) {
+    TemporaryFolder folder;
+    std::vector<Message> messages = PlainMessages();
+    for (const bool has_colour : {true, false}) {
+        WriteRosFile(folder.Path("a.mcap"), McapOf(messages, ""));
+        RecordingResult recording = OpenRosRecording(folder.Path("a.mcap"), kRosGap_s);
+        ASSERT_TRUE(recording.ok()) << recording.message();
+        EXPECT_EQ(recording.value()->info().has_colour, has_colour);
+        std::erase_if(messages, [](const Message& m) { return m.topic == "/cam/color/image_raw"; });
+    }
+}
+
 // Each depth image gets the colour image before it, whose stamp is 96 ms earlier.
 TEST(RosRecording, PairsWhatWasTakenAtTheSameTime) {
     TemporaryFolder folder;

@@ -111,6 +111,7 @@ TEST_F(SensRecordings, ARecordingWithoutColourHasNone) {
     sens.colour_width = sens.colour_height = 0;
     sens.frames[0].colour.clear();
     const auto recording = Opened(sens);
+    EXPECT_FALSE(recording->info().has_colour);
     ASSERT_TRUE(recording->Load(0, depth, colour).ok());
     EXPECT_EQ(depth, SensDepthOf(0));
     EXPECT_TRUE(colour.empty());

@@ -26,6 +26,10 @@ TEST(SourceSettings, AreWhatTheRunHasUsed) {
             "depth_distortion": {"used": true, "columns": 2, "rows": 2, "per_m": [0, 0.5, 0, 1]},
             "configuration": {"synthetic.speed": 2.5, "source.colour_delay_s": 0.01, "source.unheard_of": 1, "mapping.voxel_size_m": 0.5}})"));
     EXPECT_EQ(config.source.camera, (PinholeCamera{64, 48, 60, 61, 31, 23}));
+    EXPECT_EQ(config.openni.fx, 60);  // a .oni recording is opened with these
+    EXPECT_EQ(config.openni.fy, 61);
+    EXPECT_EQ(config.openni.cx, 31);
+    EXPECT_EQ(config.openni.cy, 23);
     EXPECT_EQ(config.source.vignetting, 0.2);
     EXPECT_EQ(config.source.colour_shift_px, Eigen::Vector2d(5.5, -4));
     EXPECT_NEAR(config.source.colour_delay_s, 0.018, 1e-12);
@@ -45,6 +49,7 @@ TEST(SourceSettings, LeaveOutWhatWasNotUsed) {
          R"({"depth_distortion": {"used": true, "columns": 9, "rows": 2, "per_m": [0, 0, 0, 1]}})"}) {
         const RunConfig config = SourceSettings(Record(json));
         EXPECT_FALSE(config.source.camera) << json;
+        EXPECT_EQ(config.openni.fx, 0) << json;
         EXPECT_EQ(config.source.vignetting, 0) << json;
         EXPECT_TRUE(config.source.colour_shift_px.isZero()) << json;
         EXPECT_EQ(config.source.colour_delay_s, 0) << json;

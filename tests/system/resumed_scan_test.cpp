@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <utility>
 
 #include "run/open_source.h"
@@ -123,6 +124,29 @@ TEST_F(Scan, OfTheSameRecordingOnlyTheRestIsRead) {
     EXPECT_EQ(rest({})[1], 0);
     info.name = "another";
     EXPECT_EQ(rest({}), (Rest{0, -1, 1}));
+}
+
+TEST_F(Scan, ARecordingIsTheSameUnderAnyOfItsNames) {
+    namespace fs = std::filesystem;
+    const std::string d1 = folder / "d1";
+    for (const char* name : {"d1", "d2"}) fs::create_directory(folder / name);
+    ScanContent scan;
+    scan.source_name = d1;
+    scan.progress.last_index = 17;
+    const auto first = [&](const std::string& name) {
+        SourceInfo info;
+        info.name = name;
+        return RestOf({}, info, scan).start;
+    };
+    EXPECT_EQ(first(d1), 18);
+    EXPECT_EQ(first(d1 + "/"), 18);
+    EXPECT_EQ(first(folder / "./d2/../d1"), 18);
+    EXPECT_EQ(first(fs::relative(d1).string()), 18);
+    EXPECT_EQ(first(folder / "d2"), 0);
+    EXPECT_EQ(first(folder / "none"), 0);
+    scan.source_name = folder / "gone";
+    EXPECT_EQ(first(folder / "gone"), 18);
+    EXPECT_EQ(first(d1), 0);
 }
 
 }  // namespace

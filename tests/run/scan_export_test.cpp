@@ -1,0 +1,101 @@
+#include "run/scan_export.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "export/posed_scan.h"
+#include "io/folder_source.h"
+
+namespace tessera {
+namespace {
+
+using testing_support::kPosedFrames;
+
+// The stamps of the frames in a recorded folder.
+std::vector<double> StampsOf(const std::string& folder) {
+    const auto source = OpenFolderSource(folder, {});
+    EXPECT_TRUE(source.ok()) << source.message();
+    return source.ok() ? source.value()->Stamps_s() : std::vector<double>{};
+}
+
+std::string StampText(const std::string& folder) {
+    std::string text;
+    for (const double stamp_s : StampsOf(folder)) text += fmt::format("{:.3f} ", stamp_s);
+    return text;
+}
+
+class FramesOfScan : public ::testing::Test {
+  protected:
+    FramesOfScan() { testing_support::WritePosedScan(scan); }
+
+    // Writes rows of frames and of the path over those that are there.
+    void Change(const std::function<void(ScanFile&)>& put) const {
+        Result<std::unique_ptr<ScanFile>> file = ScanFile::OpenToWrite(scan);
+        ASSERT_TRUE(file.ok()) << file.message();
+        ASSERT_TRUE(file.value()->Begin().ok());
+        put(*file.value());
+        ASSERT_TRUE(file.value()->Commit(true).ok());
+        file.value()->Close();
+    }
+    void Damage(std::int64_t frame) const {
+        Change([&](ScanFile& file) {
+            EXPECT_TRUE(file.Put(ScanTable::kFrames, frame, Bytes(9, 1)).ok());
+        });
+    }
+    void Restamp(std::int64_t frame, double stamp_s) const {
+        Change([&](ScanFile& file) {
+            FrameRecord record;
+            const Result<Bytes> was = file.ReadOne(ScanTable::kFrames, frame);
+            ASSERT_TRUE(was.ok() && record.Decode(was.value()));
+            record.stamp_s = record.colour_stamp_s = stamp_s;
+            EXPECT_TRUE(file.Put(ScanTable::kFrames, frame, record.Encode().value()).ok());
+        });
+    }
+
+    TempFolder folder;
+    const std::string scan = folder / "a.scan", raw = folder / "raw";
+};
+
+TEST_F(FramesOfScan, OneSessionIsOneFolder) {
+    const auto notes = ExportFrames(scan, raw);
+    ASSERT_TRUE(notes.ok()) << notes.message();
+    EXPECT_TRUE(notes.value().empty());
+    EXPECT_EQ(StampText(raw), "0.000 0.667 1.333 2.000 2.667 ");
+    EXPECT_FALSE(std::filesystem::exists(raw + "_2"));
+}
+
+TEST_F(FramesOfScan, WhereTheClockStartsAgainAnotherFolderBegins) {
+    Restamp(2, 0.5);
+    Restamp(4, 2);
+    const auto notes = ExportFrames(scan, raw + "/");
+    ASSERT_TRUE(notes.ok()) << notes.message();
+    EXPECT_EQ(notes.value(),
+              (std::vector<std::string>{
+                  scan + ": the clock starts again at frame 2; the rest is in " + raw + "_2",
+                  scan + ": the clock starts again at frame 4; the rest is in " + raw + "_3"}));
+    EXPECT_EQ(StampText(raw), "0.000 0.667 ");
+    EXPECT_EQ(StampText(raw + "_2"), "0.500 2.000 ");
+    EXPECT_EQ(StampText(raw + "_3"), "2.000 ");
+}
+
+TEST_F(FramesOfScan, ADamagedFrameIsLeftOutAndCounted) {
+    Damage(1);
+    Damage(3);
+    const auto notes = ExportFrames(scan, raw);
+    ASSERT_TRUE(notes.ok()) << notes.message();
+    EXPECT_EQ(notes.value(), std::vector<std::string>{"2 of 5 frames are left out (" + scan +
+                                                      ": frame 1: is damaged)"});
+    EXPECT_EQ(StampText(raw), "0.000 1.333 2.667 ");
+    for (int i = 0; i < kPosedFrames; ++i) Damage(i);
+    EXPECT_EQ(ExportFrames(scan, folder / "none").message(),
+              scan + ": frame 0: is damaged; no frame can be exported");
+    EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+}  // namespace
+}  // namespace tessera
