@@ -78,11 +78,14 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
                 PutState(ScanStateKey::kSource, Bytes(c.source.begin(), c.source.end()));
             !status.ok())
             return status;
-    for (const auto& [state_key, bytes] :
-         {std::pair{ScanStateKey::kTracking, &c.tracking}, {ScanStateKey::kLabels, &c.labels}})
+    // An empty state is none. What is not given is none after a reset; else it stays.
+    const Bytes loops = c.loops ? c.loops->Encode() : Bytes();
+    for (const auto& [state_key, bytes] : {std::pair{ScanStateKey::kTracking, &c.tracking},
+                                           {ScanStateKey::kLabels, &c.labels},
+                                           {ScanStateKey::kLoops, &loops}})
         if (!bytes->empty() || c.clear_all)
             if (Status status = PutState(state_key, *bytes); !status.ok()) return status;
-    return c.loops ? PutState(ScanStateKey::kLoops, c.loops->Encode()) : Status::Ok();
+    return Status::Ok();
 }
 
 Status ScanWriter::PutState(ScanStateKey key, const Bytes& bytes) {

@@ -6,6 +6,7 @@
 #include "core/process.h"
 #include "core/stopwatch.h"
 #include "io/mesh_io.h"
+#include "system/run_control.h"
 #include "system/scan_restore.h"
 
 namespace tessera {
@@ -23,7 +24,8 @@ FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Ba
 }
 
 Status FrameMapping::StartScan(ScanPlan plan) {
-    if (plan.only_localise()) {
+    only_localise_ = plan.only_localise();
+    if (only_localise_) {
         loops_ = TakeLoopMemory(*plan.resumed);
         return RestoreMap({}, *plan.resumed, stage_);
     }
@@ -146,6 +148,7 @@ void FrameMapping::WriteMesh(const SavedMesh& saved) {
 void FrameMapping::SaveScan(const std::string& path) { notices_.Tell(StartScanNow(path)); }
 
 std::string FrameMapping::StartScanNow(const std::string& path) {
+    if (only_localise_) return kMapIsKept;
     if (scan_) return "the scan is already being saved: " + scan_->path();
     if (config_.loops.refine_calibration)
         return "cannot save a scan with calibration.refine: its frames would have two different "

@@ -108,6 +108,7 @@ class FrameMapping {
     const RunConfig config_;
     const SourceInfo source_;
     const bool has_viewer_, wait_;
+    bool only_localise_ = false;
     Notices& notices_;
     MappingStage stage_;
     std::optional<ScanStage> scan_;            // set if a scan is saved

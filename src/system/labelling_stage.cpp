@@ -127,7 +127,10 @@ void LabellingThread::Detect(Job& job) {
     answer.job = std::move(job);
     if (!stage_.Detect(*answer.job.frame, answer.report, answer.message)) {
         broken_.store(true);
-        if (!answer.message.empty()) answer.message = LabellingStopped(answer.message);
+        if (answer.message.empty())
+            answer.job.map.world = -1;
+        else
+            answer.message = LabellingStopped(answer.message);
     }
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than jobs");
 }

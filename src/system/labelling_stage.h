@@ -87,7 +87,7 @@ class LabellingThread {
         MapVersion map;
     };
     struct Answer {
-        Job job;
+        Job job;  // of no world (-1) if nobody looked at the frame, which only comes back
         LabelReport report;
         std::string message;  // for the user; if set, the report is empty
     };
@@ -100,6 +100,8 @@ class LabellingThread {
     std::unique_ptr<Frame> Offer(Job job);
     bool has_answer() const { return !answers_.empty() || !changes_.empty(); }
     bool TryTake(Answer& answer) { return answers_.TryPop(answer); }
+    // The detector has failed, and all that it had detected was taken.
+    bool stopped() const { return broken_.load() && answers_.empty(); }
     // Opens another detector, while the present one goes on; see LabellingStage::Change.
     void Change(std::string name) { wanted_.Push(std::move(name)); }
     bool TryTake(DetectorChange& change) { return changes_.TryPop(change); }

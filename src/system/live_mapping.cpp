@@ -1,5 +1,7 @@
 #include "system/live_mapping.h"
 
+#include <cmath>
+
 #include "core/check.h"
 #include "system/loop_stage.h"
 
@@ -125,7 +127,9 @@ void LiveMapping::MapFrame(MappingTask& task) {
     if (!task.detector.empty()) ChangeDetector(task.detector);
     life_.Begin();
     life_.Fuse(tracked, outcome);
-    if (!one_thread_ && (tracked.report.fused || life_.stage().has_delta())) SendMapUpdate();
+    // Tracking waits for the answer to a first frame, fused or not.
+    if (!one_thread_ && (tracked.report.first || tracked.report.fused || life_.stage().has_delta()))
+        SendMapUpdate();
     if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
     life_.Record(*task.frame, tracked, 0, outcome);
     life_.Save(outcome);
@@ -151,12 +155,18 @@ void LiveMapping::SendMapUpdate() {
     TESSERA_CHECK(links_.map_updates.TryPush(std::move(update)), "more map updates than frames");
 }
 
+// Also if the source's clock was set back.
+bool LiveMapping::DetectionDue(double stamp_s) const {
+    return !last_detection_s_ ||
+           std::abs(stamp_s - *last_detection_s_) >= 1 / config_.labels.max_rate_hz;
+}
+
 // Passes the frame on to labelling and loop closure, which process it in the background.
 void LiveMapping::Offer(MappingTask& task) {
     const FrameReport& report = task.tracked->report;
     if (labelling_ && life_.stage().has_labels() && life_.labelling() && report.fused &&
-        report.stamp_s >= next_detection_s_) {
-        next_detection_s_ = report.stamp_s + 1 / config_.labels.max_rate_hz;
+        DetectionDue(report.stamp_s)) {
+        last_detection_s_ = report.stamp_s;
         std::unique_ptr<Frame> frame = links_.frames.Take();
         if (loops_)
             *frame = *task.frame;
@@ -167,6 +177,8 @@ void LiveMapping::Offer(MappingTask& task) {
             labelling_->Offer({std::move(frame), report.track.T_world_camera, version()});
         if (life_.paging() != nullptr && needless.get() != offered)
             life_.paging()->Hold(report.index, report.track.T_world_camera);
+        else if (life_.paging() != nullptr && labelling_->stopped())
+            life_.paging()->ReleaseHold(report.index);  // no detections are to come
         links_.frames.Give(std::move(needless));
     }
     if (loops_ && report.tracked() && !only_localise_)
@@ -193,7 +205,7 @@ void LiveMapping::Execute(const ViewerCommand& command) {
 void LiveMapping::Reset() {
     ++world_;
     corrections_.clear();
-    next_detection_s_ = 0;
+    last_detection_s_.reset();
     if (loops_) loops_->Reset(version());
     life_.Reset();
     links_.Report(FrameOutcome::Kind::kReset, {});

@@ -53,6 +53,7 @@ class LiveMapping {
     void Process(MappingTask& task);
     void MapFrame(MappingTask& task);
     void SendMapUpdate();
+    bool DetectionDue(double stamp_s) const;
     void Offer(MappingTask& task);
     void TakeLabels();
     void TakeLabels(LabellingThread::Answer& answer);
@@ -74,7 +75,7 @@ class LiveMapping {
     bool only_localise_ = false;                  // set before the threads start
     int world_ = 0;                               // number of resets
     std::vector<Eigen::Isometry3d> corrections_;  // T_new_old of each correction in this world
-    double next_detection_s_ = 0;
+    std::optional<double> last_detection_s_;      // stamp of the last frame offered to labelling
     std::optional<LabelReport> labels_;           // for the next outcome
     std::unique_ptr<LabellingThread> labelling_;  // null without labels
     OpenDetectorFunction open_detector_;

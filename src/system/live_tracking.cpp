@@ -118,7 +118,7 @@ void LiveTracking::TakeSettings() {
     if (loops_ != nullptr) loops_->SetSeeking(state_->seeking);
 }
 
-// Returns whether there was any.
+// Returns whether there was any of this world.
 bool LiveTracking::ApplyMapUpdates() {
     MapUpdate update;
     bool any = false;
@@ -132,7 +132,7 @@ bool LiveTracking::ApplyMapUpdates() {
         }
         if (ours && update.delta) ApplyDelta(*update.delta, *state_->field);
         links_.deltas.Give(std::move(update.delta));
-        any = true;
+        any |= ours;
     }
     return any;
 }
@@ -149,7 +149,7 @@ std::optional<Eigen::Isometry3d> LiveTracking::TakeRelocalisation(double stamp_s
     LoopThread::Answer answer;
     if (loops_ == nullptr || !loops_->TryTake(answer)) return std::nullopt;
     state_->asked = false;
-    if (answer.map != state_->version) return std::nullopt;
+    if (answer.obsolete || answer.map != state_->version) return std::nullopt;
     if (answer.check) {
         const char* note = "";
         state_->search.TakeSecondView(answer.found, note);

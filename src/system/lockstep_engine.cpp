@@ -56,7 +56,10 @@ bool LockstepEngine::Next(FrameOutcome& outcome) {
         const ReadResult read = reader_->Next(frame_);
         outcome.message = read.message;
         switch (read.status) {
-            case ReadStatus::kOk: Process(outcome); return true;
+            case ReadStatus::kOk:
+                control_.TakeTurn();
+                Process(outcome);
+                return true;
             case ReadStatus::kSkip: outcome.kind = FrameOutcome::Kind::kSkipped; return true;
             case ReadStatus::kWait:
                 if (read.message.empty()) continue;
@@ -167,7 +170,7 @@ bool LockstepEngine::HandleViewer(FrameOutcome& outcome) {
         }
         if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
         stopped_ = stopped_ || stop_.load();
-        if (stopped_ || control_.TakeTurn()) return false;
+        if (stopped_ || !control_.waiting()) return false;
         mapping_.SendMesh();
         RunControl::SleepBriefly();
     }

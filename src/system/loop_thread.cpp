@@ -193,8 +193,9 @@ bool LoopThread::Reply() {
     answer.map = question.map;
     answer.stamp_s = question.stamp_s;
     answer.check = question.T_map_expected.has_value();
-    // A question from before the last reset or correction is obsolete.
-    if (question.map == version())
+    // From before the last reset or correction, or after a reset that is still to be made here.
+    answer.obsolete = question.map != version();
+    if (!answer.obsolete)
         answer.found = closer_->Relocalise(*question.frame, answer.note, question.T_map_expected);
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
     return true;

@@ -53,6 +53,8 @@ class LoopThread {
         std::optional<FoundCamera> found;
         std::string note;    // for the user
         bool check = false;  // whether it was expected somewhere
+        // The question was of another map, and nobody looked: ask again.
+        bool obsolete = false;
     };
 
     // Frame pools, the threads to notify, and who tells the user. All outlive the LoopThread.

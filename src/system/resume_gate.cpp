@@ -8,7 +8,9 @@ void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<
                        bool gated, TrackingStage& tracking) {
     if (!last) return;
     StateReader state(saved);
-    if (!tracking.LoadState(state) || !state.at_end()) tracking.StartAt(*last);
+    // A part of the scan that had just begun has no pose yet, and must not begin again where the
+    // first one did.
+    if (!tracking.LoadState(state) || !state.at_end() || !tracking.last()) tracking.StartAt(*last);
     last_stamp_s_ = last->stamp_s;
     T_world_last_ = last->T_world_camera;
     closed_ = first_ = gated;

@@ -12,6 +12,10 @@
 
 namespace tessera {
 
+// Why a scan is not saved, nor a map cleared.
+inline constexpr const char* kMapIsKept =
+    "--localise-only: the map and the scan stay as they are, and no other scan is saved";
+
 // Owner thread only: the thread that lets frames in. Without a viewer, every frame passes.
 class RunControl {
   public:
@@ -29,7 +33,7 @@ class RunControl {
                 case Kind::kReset:
                 case Kind::kSaveScan:
                     if (refusals_ == nullptr) return command;
-                    refusals_->Tell("--localise-only: the map and the scan stay as they are");
+                    refusals_->Tell(kMapIsKept);
                     break;
                 default: return command;
             }
@@ -43,9 +47,10 @@ class RunControl {
     // For a thread that polls for commands and for a stop signal, which cannot wake it.
     static void SleepBriefly() { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
 
+    // No frame may pass now.
     bool waiting() const { return paused_ && steps_ == 0; }
 
-    // Whether a frame may pass now. Uses up one step while paused.
+    // Call for a frame that is there: whether it may pass. Uses up one step while paused.
     bool TakeTurn() {
         if (waiting()) return false;
         if (paused_) --steps_;

@@ -27,6 +27,38 @@ TEST(ScanFile, GivesBackWhatWasWrittenAndTheBlocksKeepTheirNumbers) {
     EXPECT_EQ(scan.value().LastPose()->stamp_s, 29 / 30.0);
 }
 
+// A run is killed after a reset, before loop closure has learnt anything of the new world.
+TEST(ScanFile, AClearedWorldHasNoLoops) {
+    TempFolder folder;
+    const ScanMeta meta = SmallMeta();
+    Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(folder / "a.scan", meta.Encode());
+    ASSERT_TRUE(file.ok()) << file.message();
+    ScanWriter writer(std::move(file.value()), 5000);
+    ScanCheckpoint checkpoint;
+    const PinholeCamera view = meta.camera.Every(kKeyframeReduction);
+    for (const int id : {0, 1}) {
+        Keyframe& keyframe = checkpoint.keyframes.emplace_back();
+        keyframe.id = id;
+        keyframe.depth_m = DepthImage(view.width, view.height, 2.0f);
+        keyframe.reduced.reduction = 2;
+        keyframe.reduced.depth.Resize(meta.camera.width / 2, meta.camera.height / 2);
+        checkpoint.poses.emplace_back(id, KeyframePoses());
+    }
+    checkpoint.loops.emplace().edges.push_back({.from = 0, .to = 1});
+    ASSERT_TRUE(writer.Write(checkpoint).ok());
+    Result<ScanContent> scan = ReadScan(folder / "a.scan", {});
+    ASSERT_TRUE(scan.ok()) << scan.message();
+    EXPECT_EQ(scan.value().keyframes.size(), 2u);
+    EXPECT_EQ(scan.value().loops.edges.size(), 1u);
+    checkpoint.Clear();
+    checkpoint.clear_all = true;
+    ASSERT_TRUE(writer.Write(checkpoint).ok());
+    scan = ReadScan(folder / "a.scan", {});
+    ASSERT_TRUE(scan.ok()) << scan.message();
+    EXPECT_TRUE(scan.value().keyframes.empty());
+    EXPECT_TRUE(scan.value().loops.edges.empty());
+}
+
 TEST(ScanFile, AnExistingFileIsNeverOverwritten) {
     TempFolder folder;
     WriteBytes(folder / "a.scan", "mine");

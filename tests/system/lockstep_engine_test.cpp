@@ -1,6 +1,8 @@
 #include "system/lockstep_engine.h"
 
+#include <chrono>
 #include <cstring>
+#include <future>
 
 #include "run/open_source.h"
 #include "support/temp_folder.h"
@@ -61,6 +63,25 @@ TEST_F(Lockstep, PauseStepResumeLetExactlySoManyFramesPass) {
     Ask(Command::kResume);
     TakeAll();
     EXPECT_EQ(Reports().size(), 6u);
+}
+
+// A camera that has no frame for a while uses up no step.
+TEST_F(Lockstep, AStepLastsUntilThereIsAFrame) {
+    ViewerLink link;
+    viewer = &link;
+    Ask(Command::kStep);
+    Make(false, {.count = 2, .before_read = [waits = 0](std::int64_t) mutable -> ReadResult {
+                     if (++waits <= 3) return {ReadStatus::kWait, {}};
+                     return {};
+                 }});
+    auto next = std::async(std::launch::async, [this] { return Next(); });
+    if (next.wait_for(std::chrono::minutes(1)) != std::future_status::ready)
+        stop = true;  // rather than to hang
+    EXPECT_TRUE(next.get());
+    EXPECT_EQ(Reports().size(), 1u);
+    Ask(Command::kResume);
+    TakeAll();
+    EXPECT_EQ(Reports().size(), 2u);
 }
 
 TEST_F(Lockstep, AResetBeginsANewWorldAndKeepsTheMethod) {

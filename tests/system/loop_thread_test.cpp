@@ -246,14 +246,21 @@ TEST_F(LoopThreadTest, AResetForgetsAllAndAnOldQuestionHasNoAnswer) {
     };
     const LoopThread::Answer here = ask({0, 0});
     ASSERT_TRUE(here.found.has_value());
+    EXPECT_FALSE(here.obsolete);
     EXPECT_LT(
         (here.found->T_map_camera.translation() - walk[0].T_world_camera->translation()).norm(),
         0.02);
     EXPECT_EQ(here.stamp_s, 1.5);
     thread.Reset({1, 0});
     mapping.Wait([&] { return thread.waiting() == 0; });
-    EXPECT_FALSE(ask({0, 0}).found.has_value());
-    EXPECT_FALSE(ask({1, 0}).found.has_value());  // no keyframe exists after the reset
+    for (const MapVersion other : {MapVersion{0, 0}, {2, 0}}) {  // of before, and of a later reset
+        const LoopThread::Answer none = ask(other);
+        EXPECT_FALSE(none.found.has_value()) << other.world;
+        EXPECT_TRUE(none.obsolete) << other.world;
+    }
+    const LoopThread::Answer nowhere = ask({1, 0});  // no keyframe exists after the reset
+    EXPECT_FALSE(nowhere.found.has_value());
+    EXPECT_FALSE(nowhere.obsolete);
     thread.Finish(nullptr, {});
     EXPECT_TRUE(thread.Path().empty());
 }

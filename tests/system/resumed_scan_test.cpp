@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <utility>
 
+#include "optimize/scan_parts.h"
 #include "run/open_source.h"
 #include "support/box_room_source.h"
+#include "system/resume_gate.h"
 #include "system/scan_fixture.h"
 #include "system/scan_stage.h"
 
@@ -87,6 +89,23 @@ TEST_F(Scan, AfterAGapTheCameraIsFoundWhereTheScanEndedAndNowhereElse) {
     ASSERT_FALSE(Reports().empty());
     EXPECT_TRUE(Reports().back()->fused);
     EXPECT_LT(Error_m(*Reports().back()), 0.01);
+}
+
+// A part of the scan had begun, and nothing was tracked in it yet. The next frame must not begin
+// one where the first did.
+TEST(ResumeGate, AStateWithoutAPoseStartsAtTheScansLast) {
+    const StampedPose last{3.5, Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3))};
+    TrackingStage ended({}, testing_support::SmallCamera());
+    ended.StartAt(last);
+    ended.BeginPart(PartStart(1));
+    Bytes saved;
+    StateWriter state(saved);
+    ended.SaveState(state);
+    TrackingStage resumed({}, testing_support::SmallCamera());
+    ResumeGate(0.5).Begin(saved, last, false, resumed);
+    ASSERT_TRUE(resumed.last().has_value());
+    EXPECT_EQ(resumed.last()->stamp_s, 3.5);
+    EXPECT_EQ(resumed.last()->T_world_camera.matrix(), last.T_world_camera.matrix());
 }
 
 TEST_F(Scan, WhatContradictsTheFileIsRefusedByItsKey) {

@@ -4,6 +4,7 @@
 #include "io/mesh_io.h"
 #include "run/scan_export.h"
 #include "system/engine_fixture.h"
+#include "system/run_control.h"
 
 namespace tessera {
 namespace {
@@ -46,6 +47,31 @@ TEST_P(SaveAfterEnd, MeshAndScanAreThoseOfTheRun) {
     ASSERT_TRUE(stored.ok()) << stored.message();
     EXPECT_EQ(stored.value().triangles.size(), mesh.triangles.size());
     EXPECT_EQ(path.size(), Reports().size());
+}
+
+TEST_P(SaveAfterEnd, OfARunThatOnlyLocalisedAMeshButNoScan) {
+    const SourceInfo info = Source().info();
+    const auto run = [&](Result<ScanPlan> plan) {
+        ASSERT_TRUE(plan.ok()) << plan.message();
+        EngineInput input = Input({.count = 12});
+        input.scan = std::move(plan.value());
+        if (GetParam())
+            engine = std::make_unique<LiveEngine>(std::move(input));
+        else
+            engine = std::make_unique<LockstepEngine>(std::move(input));
+        TakeAll();
+        engine->KeepMap();
+        engine->TakeMesh();
+    };
+    run(BeginScan(folder / "a.scan", info, config));
+    run(OpenToLocalise(folder / "a.scan", info, config));
+    ASSERT_TRUE(engine->has_map());
+    Notices();
+    engine->Save({Command::kSaveScan, folder / "late.scan"});
+    EXPECT_EQ(Notices(), std::string(kMapIsKept) + "\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "late.scan"));
+    engine->Save({Command::kSaveMesh, folder / "late.ply"});
+    EXPECT_TRUE(std::filesystem::exists(folder / "late.ply"));
 }
 
 TEST_P(SaveAfterEnd, WithoutAWindowTheMapIsReleased) {
