@@ -26,7 +26,6 @@ LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings,
 
 void LoopCloser::Resume(Memory memory) {
     graph_.Resume(std::move(memory.graph));
-    for (const Keyframe& keyframe : graph_.keyframes().all()) places_.Add(keyframe);
     // Drops detections of classes that this run does not have.
     const std::optional<Labels>& labels = corrector_.labels();
     for (StoredFrame& frame : memory.frames)
@@ -35,7 +34,18 @@ void LoopCloser::Resume(Memory memory) {
                 return !labels || d.class_id < 1 || d.class_id > labels->classes.count();
             });
     frames_.store().Resume(std::move(memory.frames), memory.next_ordinal);
+    AddPlaces();
     MakeMissingViews();
+}
+
+// A place is verified with its keyframe's own frame, which a damaged scan may lack.
+void LoopCloser::AddPlaces() {
+    const Keyframes& keyframes = graph_.keyframes();
+    std::vector<bool> stored(static_cast<std::size_t>(keyframes.size()), false);
+    for (const StoredFrame& frame : frames_.store().frames())
+        if (frame.is_keyframe) stored[static_cast<std::size_t>(frame.keyframe)] = true;
+    for (const Keyframe& keyframe : keyframes.all())
+        if (stored[static_cast<std::size_t>(keyframe.id)]) places_.Add(keyframe);
 }
 
 // Old scan files have no reduced views.

@@ -110,6 +110,7 @@ class LoopCloser {
     void Follow(const Eigen::Isometry3d& T_map_camera);
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                      const FrameMotion& motion, const Eigen::Isometry3d& T_map_expected,
+    void AddPlaces();
                      bool doubtful);
     std::optional<int> LinkedTo(const Eigen::Isometry3d& T_map_camera) const;
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
