@@ -14,10 +14,10 @@ std::vector<BlockId> ChangedSince(const BlockMap& map, std::uint32_t revision) {
 std::unique_ptr<BlockMap> MapCopier::Copy(const BlockMap& map, std::uint32_t revision, int blocks) {
     if (!copy_ || map.identity() != identity_) {
         copy_ = std::make_unique<BlockMap>(map.config());
+        copied_ = copied(map);
         identity_ = map.identity();
         next_ = 1;
         begun_ = revision;
-        copied_ = 0;
     }
     const auto copy = [&](BlockId id) {
         CopyVoxels(map, id, *copy_, copy_->Allocate(map.coord(id)));

@@ -17,7 +17,8 @@ class MapCopier {
     std::unique_ptr<BlockMap> Copy(const BlockMap& map, std::uint32_t revision, int blocks);
     bool begun() const { return copy_ != nullptr; }
     void Stop() { copy_.reset(); }
-    // The map's revision when the last copy was whole. 0: there was none of this map.
+    // The map's revision when the last copy was whole, even if another was begun since. 0: there
+    // was none of this map.
     std::uint32_t copied(const BlockMap& map) const {
         return map.identity() == identity_ ? copied_ : 0;
     }

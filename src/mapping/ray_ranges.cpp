@@ -6,12 +6,6 @@
 namespace tessera {
 namespace {
 
-std::int64_t CountOf(const RegionBox& box) {
-    std::int64_t count = 1;
-    for (int i = 0; i < 3; ++i) count *= std::int64_t{box.last[i]} - box.first[i] + 1;
-    return count;
-}
-
 // The regions that the view pyramid up to a depth may touch, with a margin of one block.
 RegionBox RegionsInView(const BlockMap& map, const PinholeCamera& camera,
                         const Eigen::Isometry3d& T_world_camera, double max_depth_m) {
@@ -58,7 +52,7 @@ RangeArguments MakeRangeArguments(const BlockMap& map, const PinholeCamera& came
     a.height = (camera.height + kRayTilePx - 1) / kRayTilePx;
     // Use whichever is fewer: the regions that the view pyramid may touch, or all blocks.
     a.regions = RegionsInView(map, camera, T_world_camera, max_depth_m);
-    a.all_regions = CountOf(a.regions) >= map.size();
+    a.all_regions = a.regions.Count() >= map.size();
     return a;
 }
 

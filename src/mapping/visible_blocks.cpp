@@ -5,24 +5,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace tessera {
 namespace {
 
-// Calls `visit` with the blocks of each region that may meet the cone.
+// Calls `visit` with the blocks of each region that may meet the cone, or with each one of them.
 template <class Visit>
 void ForEachRegion(const ViewCone& cone, const BlockMap& map, const Visit& visit) {
     const double region_m = map.config().voxel_size_m * kBlockSide * kRegionBlocks;
+    const auto may_meet = [&](const BlockCoord& region) {
+        const double p_world[3] = {(region.x + 0.5) * region_m, (region.y + 0.5) * region_m,
+                                   (region.z + 0.5) * region_m};
+        double centre[3];
+        cone.ToCamera(p_world, centre);
+        return cone.MayContain(centre, 0.8661 * region_m);
+    };
+    // Use whichever is fewer: the regions around the frustum, or all blocks.
+    if (cone.regions.Count() >= map.size()) {
+        for (BlockId id = 1; id < map.size(); ++id) {
+            if (map.IsFree(id)) continue;
+            const BlockCoord region = RegionOf(map.coord(id));
+            if (cone.regions.Has(region) && may_meet(region))
+                visit(std::span<const BlockId>(&id, 1));
+        }
+        return;
+    }
     for (int z = cone.regions.first[2]; z <= cone.regions.last[2]; ++z)
         for (int y = cone.regions.first[1]; y <= cone.regions.last[1]; ++y)
-            for (int x = cone.regions.first[0]; x <= cone.regions.last[0]; ++x) {
-                const double p_world[3] = {(x + 0.5) * region_m, (y + 0.5) * region_m,
-                                           (z + 0.5) * region_m};
-                double centre[3];
-                cone.ToCamera(p_world, centre);
-                if (cone.MayContain(centre, 0.8661 * region_m))
-                    visit(map.BlocksInRegion({x, y, z}));
-            }
+            for (int x = cone.regions.first[0]; x <= cone.regions.last[0]; ++x)
+                if (may_meet({x, y, z})) visit(map.BlocksInRegion({x, y, z}));
 }
 
 }  // namespace

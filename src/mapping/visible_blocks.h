@@ -1,5 +1,6 @@
 // Which blocks of the map one depth image may change: those in the camera's frustum that are not
-// wholly behind the measured depth. The cost depends on the view, not on the size of the map.
+// wholly behind the measured depth. The cost depends on the view or on the size of the map,
+// whichever makes it less.
 #pragma once
 
 #include <Eigen/Geometry>

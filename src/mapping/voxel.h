@@ -113,6 +113,11 @@ struct RegionBox {
         for (int k = 0; k < 3; ++k) inside &= at[k] >= first[k] && at[k] <= last[k];
         return inside;
     }
+    TESSERA_HD_MEMBER std::int64_t Count() const {
+        std::int64_t count = 1;
+        for (int k = 0; k < 3; ++k) count *= std::int64_t{last[k]} - first[k] + 1;
+        return count;
+    }
 };
 
 // Position in the hash table before masking. Unsigned arithmetic wraps. A template on the number

@@ -75,7 +75,7 @@ bool EndsAt(const DepthImage& depth_m, int x, int y, int dx, int dy) {
 EdgeView MakeEdgeView(const Frame& frame) {
     EdgeView edges;
     if (frame.colour.empty() || frame.colour.width() != frame.depth_m.width()) return edges;
-    edges.step_px = std::max(1, frame.depth_m.width() / kEdgeColumns);
+    edges.step_px = std::max(1, (frame.depth_m.width() + kEdgeColumns / 2) / kEdgeColumns);
     const SmallView view = Shrink(frame, edges.step_px);
     edges.across = EdgeStrength(view.luma, 1, 0);
     edges.down = EdgeStrength(view.luma, 0, 1);

@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-// The frame with at most about 320 columns.
+// The frame with about 320 columns, 479 at most.
 struct EdgeView {
     // Right, left, down, up: opposite ones differ in the lowest bit of their index.
     static constexpr std::array<std::pair<int, int>, 4> kAhead = {

@@ -1,5 +1,7 @@
 #include "optimize/feature_match.h"
 
+#include <algorithm>
+
 namespace tessera {
 namespace {
 
@@ -17,6 +19,14 @@ struct Nearest {
         }
     }
 };
+
+double MedianDepth_m(std::span<const Eigen::Vector3f> p_camera, std::span<const int> which) {
+    std::vector<float> depths_m;
+    for (const int i : which) depths_m.push_back(p_camera[static_cast<std::size_t>(i)].z());
+    const auto middle = depths_m.begin() + std::ssize(depths_m) / 2;
+    std::nth_element(depths_m.begin(), middle, depths_m.end());
+    return *middle;
+}
 
 }  // namespace
 
@@ -44,7 +54,7 @@ std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> ol
 }
 
 FeatureMatch MatchFeatures(const Features& old, const Features& fresh, const LoopConfig& config) {
-    constexpr double kTolerance_m = 0.025;
+    constexpr double kTolerance_m = 0.025, kWholeSpread_m = 1;
     std::vector<Eigen::Vector3f> p_old, p_new;
     for (const auto& [i, j] : MatchDescriptors(old.descriptors, fresh.descriptors)) {
         p_old.push_back(old.p_camera[static_cast<std::size_t>(i)]);
@@ -56,7 +66,10 @@ FeatureMatch MatchFeatures(const Features& old, const Features& fresh, const Loo
     match.T_old_new = fit.T_a_b;
     match.inliers = static_cast<int>(fit.inliers.size());
     match.spread_m = fit.spread_m;
-    match.accepted = match.inliers >= config.min_inliers && match.spread_m >= config.min_spread_m;
+    if (match.inliers < config.min_inliers) return match;
+    // What a camera sees of a near surface is small.
+    const double nearness = std::min(1.0, MedianDepth_m(p_old, fit.inliers) / kWholeSpread_m);
+    match.accepted = match.spread_m >= config.min_spread_m * nearness;
     return match;
 }
 

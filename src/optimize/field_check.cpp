@@ -20,6 +20,10 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
                                FrameStore& store) {
     constexpr double kAsWell = 0.9;
     FieldVerdict verdict;
+    if (old_frames.empty()) {
+        verdict.reason = "the old keyframe's images are missing";
+        return verdict;
+    }
     FuseOld(old_frames, store);
     const TrackResult forward = Track(fresh.prepared, fresh.motion, fresh.T_old_new_features);
     verdict.T_old_new = forward.T_world_camera;

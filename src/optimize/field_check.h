@@ -58,7 +58,7 @@ class FieldCheck {
   public:
     FieldCheck(const FieldSettings& settings, const LoopConfig& config);
 
-    // `old_frames`: the frame of the old keyframe first, then others near it.
+    // `old_frames`: the frame of the old keyframe first, then others near it. Refuses if empty.
     FieldVerdict Check(std::span<const NearFrame> old_frames, const FreshFrame& fresh,
                        FrameStore& store);
 

@@ -26,7 +26,6 @@ LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings,
 
 void LoopCloser::Resume(Memory memory) {
     graph_.Resume(std::move(memory.graph));
-    for (const Keyframe& keyframe : graph_.keyframes().all()) places_.Add(keyframe);
     // Drops detections of classes that this run does not have.
     const std::optional<Labels>& labels = corrector_.labels();
     for (StoredFrame& frame : memory.frames)
@@ -35,7 +34,18 @@ void LoopCloser::Resume(Memory memory) {
                 return !labels || d.class_id < 1 || d.class_id > labels->classes.count();
             });
     frames_.store().Resume(std::move(memory.frames), memory.next_ordinal);
+    AddPlaces();
     MakeMissingViews();
+}
+
+// A place is verified with its keyframe's own frame, which a damaged scan may lack.
+void LoopCloser::AddPlaces() {
+    const Keyframes& keyframes = graph_.keyframes();
+    std::vector<bool> stored(static_cast<std::size_t>(keyframes.size()), false);
+    for (const StoredFrame& frame : frames_.store().frames())
+        if (frame.is_keyframe) stored[static_cast<std::size_t>(frame.keyframe)] = true;
+    for (const Keyframe& keyframe : keyframes.all())
+        if (stored[static_cast<std::size_t>(keyframe.id)]) places_.Add(keyframe);
 }
 
 // Old scan files have no reduced views.
@@ -60,6 +70,7 @@ void LoopCloser::Follow(const Eigen::Isometry3d& T_map_camera) {
     if (!keyframes.empty() && !InOnePart(keyframes.T_map_last(), T_map_camera)) {
         keyframes.Jump();
         jumps_.Reset();
+        DiscardCopy();
     }
     keyframes.Follow(T_map_camera);
 }
@@ -69,6 +80,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
     Keyframes& keyframes = graph_.keyframes();
     Follow(T_map_camera);
+    fused_since_copy_ |= fused;
     // Where the map holds a place twice, tracking may jump from one surface to the other. A new
     // keyframe starts there, so that the frames on both sides can move apart. If the map is known
     // to be like this, the keyframe is linked at the pose where the camera was expected.
@@ -126,6 +138,7 @@ std::optional<int> LoopCloser::LinkedTo(const Eigen::Isometry3d& T_map_camera) c
 
 void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused) {
     Follow(T_map_camera);
+    fused_since_copy_ |= fused;
     jumps_.Follow(T_map_camera);
     graph_.AddPassage(stamp_s, T_map_camera, fused);
 }
@@ -159,6 +172,15 @@ void LoopCloser::LinkNextTo(int keyframe) {
     link_ = keyframe;
     graph_.keyframes().Jump();
     jumps_.Reset();
+    DiscardCopy();
+}
+
+// The camera is elsewhere. What was fused since the map was copied would follow it there, so the
+// map is asked for once more.
+void LoopCloser::DiscardCopy() {
+    if (!corrector_.moves_copy() || !fused_since_copy_) return;
+    corrector_.Discard();
+    graph_.MarkMoved();
 }
 
 std::string LoopCloser::TakeError() {

@@ -82,8 +82,12 @@ class LoopCloser {
     bool WantsMap() const { return HasWork() && corrector_.WantsMap(); }
     // The same, or the map is being moved.
     bool MovesMap() const { return WantsMap() || corrector_.moves_copy(); }
-    // `copy`: of the map in use, with all frames and corrections so far. See MapCorrector.
-    void Move(std::unique_ptr<BlockMap> copy) { corrector_.Move(std::move(copy)); }
+    // `copy`: of the map in use, with all frames and corrections so far. See MapCorrector. Asks
+    // again if the camera turns out to be elsewhere before the copy is moved.
+    void Move(std::unique_ptr<BlockMap> copy) {
+        if (!corrector_.busy()) fused_since_copy_ = false;
+        corrector_.Move(std::move(copy));
+    }
     // Returns once why the map is no longer corrected, or why frames are missing from it; usually
     // empty.
     std::string TakeError();
@@ -106,11 +110,13 @@ class LoopCloser {
     const std::optional<CalibrationReport>& calibration() const { return calibration_; }
 
   private:
+    void AddPlaces();
     void MakeMissingViews();
     void Follow(const Eigen::Isometry3d& T_map_camera);
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                      const FrameMotion& motion, const Eigen::Isometry3d& T_map_expected,
                      bool doubtful);
+    void DiscardCopy();
     std::optional<int> LinkedTo(const Eigen::Isometry3d& T_map_camera) const;
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                          const FrameMotion& motion);
@@ -135,7 +141,8 @@ class LoopCloser {
     std::optional<int> seen_at_;  // where a lost camera was seen last, if after the last keyframe
     std::optional<CalibrationReport> calibration_;
     bool seeking_ = true;
-    bool swapped_ = false;  // the map was replaced after the last keyframe
+    bool fused_since_copy_ = false;  // of the map that is moved
+    bool swapped_ = false;           // the map was replaced after the last keyframe
 };
 
 }  // namespace tessera

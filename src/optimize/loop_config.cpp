@@ -25,8 +25,8 @@ void LoopConfig::Describe(ConfigParameters& p) {
     p.Add("min_inliers", min_inliers, {6, 1000}, "",
           "features that must agree on one rigid motion");
     p.Add("min_spread_m", min_spread_m, {0.0, 10.0}, "m",
-          "spread of these features along their second longest axis; a single poster is not enough "
-          "to recognise a place");
+          "spread of these features along their second longest axis, less in proportion where "
+          "their median depth is under 1 m; a single poster is not enough to recognise a place");
     p.Add("min_known_fraction", min_known_fraction, {0.0, 1.0}, "",
           "share of the depth that must lie in the known part of the other side's field");
     p.Add("min_fit", min_fit, {0.0, 1.0}, "",

@@ -55,7 +55,7 @@ bool MapCorrector::Begin(double tolerance_m, const BlockMap* in_use, MapWarp::Do
 }
 
 void MapCorrector::BeginParts(const BlockMap& in_use) {
-    MovedParts moved = MoveParts(in_use, graph_, settings_.fusion.volume.box());
+    MovedParts moved = MoveParts(in_use, graph_, settings_.fusion.volume.box(), doubtful_);
     made_ = std::make_unique<MapRebuild>(settings_, std::move(moved.T_map_keyframe),
                                          std::move(moved.map), std::move(moved.doubtful));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "mapping/block_map.h"
@@ -19,6 +20,8 @@ struct MovedParts {
 
 // What else has changed in the graph is left to the next correction. Where a surface lands on
 // another, that one stays, as in a map that is moved. `box`: blocks outside it are dropped.
-MovedParts MoveParts(const BlockMap& in_use, const ScanGraph& graph, const WorldBox& box);
+// `doubtful`: blocks of the map in use that are so already; they stay so, and move with their part.
+MovedParts MoveParts(const BlockMap& in_use, const ScanGraph& graph, const WorldBox& box,
+                     std::span<const BlockCoord> doubtful = {});
 
 }  // namespace tessera

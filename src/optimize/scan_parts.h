@@ -32,10 +32,12 @@ inline bool InOnePart(const Eigen::Isometry3d& T_map_a, const Eigen::Isometry3d&
 }
 
 // Where a block is in the map.
-inline Eigen::Isometry3d PlaceOf(const BlockMap& map, BlockId id) {
-    const double block_m = kBlockSide * map.config().voxel_size_m;
-    const BlockCoord c = map.coord(id);
+inline Eigen::Isometry3d PlaceOf(const BlockCoord& c, const BlockMap::Config& map) {
+    const double block_m = kBlockSide * map.voxel_size_m;
     return Eigen::Isometry3d(Eigen::Translation3d(block_m * Eigen::Vector3d(c.x, c.y, c.z)));
+}
+inline Eigen::Isometry3d PlaceOf(const BlockMap& map, BlockId id) {
+    return PlaceOf(map.coord(id), map.config());
 }
 
 // Keyframes that edges join, directly or by way of others, are one part; and those that lie beside

@@ -55,7 +55,8 @@ Status ScanWriter::PutRows(const ScanCheckpoint& c) {
     for (const auto& [number, record] : c.path)
         if (Status status = file_->Put(ScanTable::kPath, number, record.Encode()); !status.ok())
             return status;
-    // Skips images that cannot be read or encoded; the scan does not depend on them.
+    // Skips images that cannot be read or encoded. A map that is fused again lacks their frame, and
+    // after a resume no camera is found at its keyframe.
     const auto put_frame = [this](std::int64_t number, const Result<Bytes>& record) {
         return record.ok() ? file_->Put(ScanTable::kFrames, number, record.value()) : Status::Ok();
     };

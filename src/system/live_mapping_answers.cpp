@@ -4,10 +4,19 @@
 #include "system/live_mapping.h"
 
 namespace tessera {
+namespace {
+
+// A finished update comes first: the map that it replaces is not copied once more. In this order,
+// as the thread hands over an update before it asks again.
+bool WantsCopy(const LoopThread* loops) {
+    return loops != nullptr && loops->wants_map() && !loops->has_update();
+}
+
+}  // namespace
 
 bool LiveMapping::HasAnswers() const {
     return (labelling_ && labelling_->has_answer()) || UpdateFits() || life_.stage().following() ||
-           (loops_ && loops_->wants_map());
+           WantsCopy(loops_.get());
 }
 
 void LiveMapping::TakeAnswers() {
@@ -15,7 +24,7 @@ void LiveMapping::TakeAnswers() {
     if (loops_) TakeLoops();
     if (life_.stage().following())
         life_.stage().Follow();
-    else if (loops_ && loops_->wants_map())
+    else if (WantsCopy(loops_.get()))
         CopyMap();
 }
 

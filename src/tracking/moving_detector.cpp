@@ -70,9 +70,12 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
 
 std::shared_ptr<const MovingMask> MovingDetector::PredictMask(
     double stamp_s, const Eigen::Isometry3d& T_world_camera) const {
-    constexpr double kLongest_s = 0.2;  // between two frames
+    // Between two frames. A slow camera's come later.
+    constexpr double kLongest_s = 0.2, kLongest = 1.5;  // the latter in usual intervals
     const MovingHistory& m = *memory_;
-    const bool moved = !m.moving.empty() && std::abs(stamp_s - m.now.stamp_s) <= kLongest_s;
+    const double usual_s = m.intervals > 0 ? m.intervals_s / m.intervals : 0,
+                 longest_s = std::max(kLongest_s, std::min(kLongest * usual_s, config_.window_s));
+    const bool moved = !m.moving.empty() && std::abs(stamp_s - m.now.stamp_s) <= longest_s;
     DepthImage carried_m = m.CarriedHint(stamp_s, T_world_camera, camera_, config_.window_s);
     if (!moved && carried_m.empty()) return nullptr;
     if (carried_m.empty()) carried_m = DepthImage(camera_.width, camera_.height);

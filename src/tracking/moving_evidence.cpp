@@ -57,6 +57,11 @@ void MovingAnalysis::Ingest(const MovingDetector::Input& input, int step, const 
     if (!follows) {
         m.past.clear();
         m.moving = {};
+        m.intervals = 0;
+        m.intervals_s = 0;
+    } else {
+        ++m.intervals;
+        m.intervals_s += since_s;
     }
     m.now.blur =
         follows ? Blur(RotationAngle(m.now.T_world_camera, input.T_world_camera), since_s) : 0;

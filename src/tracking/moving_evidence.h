@@ -34,6 +34,9 @@ struct MovingHistory {
     TileView now;
     std::deque<TileView> past;   // oldest first
     Image<std::uint8_t> moving;  // in `now`; empty if nothing moves
+    // Between frames that follow each other: how many times, and the sum.
+    int intervals = 0;
+    double intervals_s = 0;
     TileView hint;  // depth where a detector marks something as moving; empty if nowhere
 
     DepthImage CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,

@@ -204,6 +204,18 @@ TEST(MapCopier, BeginsAgainWithAnotherMap) {
     EXPECT_EQ(copier.copied(world.map), 0u);
 }
 
+// The map that is made of that copy may still be on its way.
+TEST(MapCopier, KeepsTheRevisionOfTheLastWholeCopyWhileItMakesAnother) {
+    MovingMap world;
+    MapCopier copier;
+    world.Fuse(0);
+    const std::uint32_t revision = world.integrator.revision();
+    ASSERT_NE(copier.Copy(world.map, revision, world.map.size()), nullptr);
+    world.Fuse(1);
+    ASSERT_EQ(copier.Copy(world.map, world.integrator.revision(), 1), nullptr);
+    EXPECT_EQ(copier.copied(world.map), revision);
+}
+
 // A consumer that uses revisions to keep data derived from the copy up to date sees every change.
 TEST(MapDelta, AMeshOfTheCopyFollowsIt) {
     MovingMap world;

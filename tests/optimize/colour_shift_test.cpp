@@ -49,6 +49,24 @@ TEST(ColourShift, IsShownWhereItIsClearAndLarge) {
               "colour lies 0.0 +- 0.1 px left of and 7.0 +- 1.0 px above where depth puts it");
 }
 
+TEST(EdgeView, HasAbout320Columns) {
+    for (const auto& [width, step] : {std::pair(240, 1),
+                                      {320, 1},
+                                      {479, 1},
+                                      {480, 2},
+                                      {639, 2},
+                                      {640, 2},
+                                      {960, 3},
+                                      {1280, 4}}) {
+        Frame frame;
+        frame.depth_m = DepthImage(width, 120, 3.0f);
+        frame.colour = ColourImage(width, 120, {90, 120, 80});
+        const EdgeView view = MakeEdgeView(frame);
+        EXPECT_EQ(view.step_px, step) << width;
+        EXPECT_EQ(view.across.width(), width / step) << width;
+    }
+}
+
 TEST(ColourShift, SaysNothingWithoutEdgesThatMeet) {
     EXPECT_FALSE(ShiftOf(60, 0));  // beyond the search
     ColourShiftEstimator none, flat, no_colour;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -223,6 +224,40 @@ TEST(LoopCloser, FindsALostCameraToTheCentimetreAndRefusesAnUnknownPlace) {
         PrepareFrame(frame, walker.settings.preparation, prepared);
         EXPECT_FALSE(walker.closer.Relocalise(prepared, note).has_value()) << frame.index;
     }
+}
+
+// A scan that was repaired may lack frames.
+TEST(LoopCloser, FindsNoCameraAtAKeyframeWhoseFrameIsMissing) {
+    const std::vector<Frame> seen = RoomWalk(0, 11, 3);
+    Walker walker(LoopConfig{});
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        walker.Go(seen[i], i == 0
+                               ? Eigen::Isometry3d::Identity()
+                               : seen[i - 1].T_world_camera->inverse() * *seen[i].T_world_camera);
+    const LoopCloser& whole = walker.closer;
+    PreparedFrame prepared;
+    PrepareFrame(seen[4], walker.settings.preparation, prepared);
+    std::string note;
+    for (const bool missing : {false, true}) {
+        const std::span<const Keyframe> keyframes = whole.keyframes().all();
+        LoopCloser::Memory memory;
+        memory.graph.keyframes.assign(keyframes.begin(), keyframes.end());
+        memory.graph.edges = whole.graph().edges();
+        memory.graph.passages = whole.graph().passages();
+        memory.frames = whole.store().frames();
+        memory.next_ordinal = whole.store().next_ordinal();
+        if (missing)
+            std::erase_if(memory.frames, [](const StoredFrame& f) { return f.is_keyframe; });
+        LoopCloser resumed(LoopConfig{}, walker.settings, 5000);
+        resumed.Resume(std::move(memory));
+        EXPECT_EQ(resumed.Relocalise(prepared, note).has_value(), !missing) << note;
+    }
+    FrameStore none(1 << 20, 5000);
+    const FieldVerdict verdict = LoopVerifier(walker.settings, LoopConfig{})
+                                     .VerifyPlace(whole.keyframes(), whole.keyframes()[0], prepared,
+                                                  Eigen::Isometry3d::Identity(), none);
+    EXPECT_FALSE(verdict.accepted);
+    EXPECT_EQ(verdict.reason, "the old keyframe's images are missing");
 }
 
 TEST(DriftOf, GrowsWithTheWay) {

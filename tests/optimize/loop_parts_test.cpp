@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/se3.h"
+#include "mapping/map_delta.h"
+#include "optimize/drifting_walk.h"
 #include "optimize/loop_closer.h"
 #include "optimize/part_walk.h"
 
@@ -193,6 +195,33 @@ TEST_F(LoopParts, AreJoinedByALostCameraThatIsFoundInBoth) {
     EXPECT_NE(note.find("is joined with"), std::string::npos) << note;
     EXPECT_EQ(PartsOf(walker.closer.graph().edges(), walker.closer.keyframes().all()),
               std::vector<int>(static_cast<std::size_t>(walker.closer.keyframes().size()), 0));
+}
+
+// What was fused since the map in use was copied follows the camera, but not to another place.
+TEST_F(LoopParts, AMapThatIsMovedIsAskedForAgainIfTheCameraIsElsewhere) {
+    const std::vector<Frame> frames = Round();
+    Walker walker(LoopConfig{});
+    walker.moves_map = true;
+    LoopCloser& closer = walker.closer;
+    for (std::size_t i = 0; i < frames.size() && !closer.MovesMap(); ++i) {
+        Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+        if (i > 0)
+            step = frames[i - 1].T_world_camera->inverse() * *frames[i].T_world_camera * Bias();
+        walker.Go(frames[i], step);
+    }
+    const auto fuse = [&] { closer.Pass(100, walker.T_map_camera, true); };
+    ASSERT_TRUE(closer.MovesMap());
+    closer.LinkNextTo(0);
+    EXPECT_FALSE(closer.WantsMap()) << "the copy has all that was fused";
+    fuse();
+    EXPECT_FALSE(closer.WantsMap());
+    closer.LinkNextTo(0);
+    EXPECT_TRUE(closer.WantsMap());
+    closer.Move(CopyLayers(*walker.map, BlockMap::Layers::kAll));
+    fuse();
+    EXPECT_FALSE(closer.WantsMap());
+    closer.Pass(101, PartStart(1), true);  // of a new part
+    EXPECT_TRUE(closer.WantsMap());
 }
 
 }  // namespace

@@ -84,6 +84,35 @@ TEST_F(Pairs, FeaturesMatchOnlyWithEnoughOfThem) {
     EXPECT_FALSE(MatchFeatures(old, fresh, config).accepted);
 }
 
+// 64 features spread evenly over a flat surface that fills the view of a Kinect; its height is
+// `share` of the view's.
+bool FlatSurfaceMatches(float depth_m, float share) {
+    const Eigen::Isometry3d T = Se3Exp((Vector6d() << 0, 0.05, 0, 0.02, 0, 0.01).finished());
+    Features old, fresh;
+    std::mt19937_64 bits(9);
+    for (int i = 0; i < 64; ++i) {
+        const float u = static_cast<float>(i % 8) / 8 - 0.4375f,
+                    v = static_cast<float>(i / 8) / 8 - 0.4375f;
+        old.p_camera.emplace_back(640 * u / 525 * depth_m, share * 480 * v / 525 * depth_m,
+                                  depth_m);
+        old.descriptors.push_back({bits(), bits(), bits(), bits()});
+        fresh.p_camera.push_back(T.inverse().cast<float>() * old.p_camera.back());
+    }
+    fresh.descriptors = old.descriptors;
+    const FeatureMatch match = MatchFeatures(old, fresh, LoopConfig{});
+    EXPECT_EQ(match.inliers, 64) << depth_m << " " << share;
+    return match.accepted;
+}
+
+// Over the whole view the spread is 0.26 times the depth.
+TEST(FeatureMatch, ANearViewNeedsLessSpread) {
+    EXPECT_TRUE(FlatSurfaceMatches(0.4f, 1));
+    EXPECT_TRUE(FlatSurfaceMatches(0.4f, 0.5f));
+    EXPECT_FALSE(FlatSurfaceMatches(0.4f, 0.4f));
+    EXPECT_TRUE(FlatSurfaceMatches(1.5f, 0.35f));
+    EXPECT_FALSE(FlatSurfaceMatches(1.5f, 0.25f));
+}
+
 TEST(MatchDescriptors, AreMutualAndClear) {
     const Descriptor x{1}, y{~std::uint64_t{0}, ~std::uint64_t{0}};
     const std::vector<Descriptor> old{x, y}, twice{x, x}, fresh{y, x};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "tracking/moving_scene.h"
 
@@ -174,6 +175,26 @@ TEST_F(MovingDetectorTest, WhatMovedIsExpectedAgain) {
     EXPECT_EQ(detector_.PredictMask(stamp_s_ + 1, T_world_camera_), nullptr);
     detector_.Clear();
     EXPECT_EQ(detector_.PredictMask(stamp_s_ + kFrame_s, T_world_camera_), nullptr);
+}
+
+// Half as much again as the usual interval is waited for, but never less than 0.2 s, nor more than
+// the window.
+TEST_F(MovingDetectorTest, WhatMovedIsExpectedAgainByASlowCamera) {
+    const std::pair<double, double> cases[] = {{0.1, 0.2}, {0.125, 0.2}, {0.25, 0.375}, {0.8, 1.0}};
+    for (const auto& slow : cases) {
+        const double interval_s = slow.first, longest_s = slow.second;
+        detector_.Clear();
+        const auto see = [&](const Box& box) {
+            stamp_s_ += interval_s - kFrame_s;
+            return See(View(box));
+        };
+        for (int i = 0; i < 12; ++i) see({});
+        for (int i = 0; i < 3; ++i) ASSERT_NE(see(BoxAt(20 * i)), nullptr) << interval_s;
+        EXPECT_NE(detector_.PredictMask(stamp_s_ + longest_s - 0.001, T_world_camera_), nullptr)
+            << interval_s;
+        EXPECT_EQ(detector_.PredictMask(stamp_s_ + longest_s + 0.001, T_world_camera_), nullptr)
+            << interval_s;
+    }
 }
 
 }  // namespace
