@@ -5,10 +5,16 @@
 #include "core/se3.h"
 
 namespace tessera {
+namespace {
+
+// Metres and radians. So far nothing else of the same kind is mistaken for a place: doors and racks
+// repeat at a metre and more.
+constexpr double kAlways = 0.15;
+
+}  // namespace
 
 Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3d& T_old_new,
               double max_drift) {
-    constexpr double kAlways = 0.15;  // metres and radians
     constexpr double kApart_m = 0.8, kApart_rad = 0.35;
     const Eigen::Isometry3d T_old_estimate = old.T_world_camera.inverse() * fresh.T_world_camera;
     Drift drift;
@@ -31,7 +37,7 @@ LoopVerifier::Match LoopVerifier::MatchKeyframes(const Keyframe& old, const Keyf
     if (!drift.conceivable)
         return {std::nullopt, fmt::format("it implies a drift of {:.2f} m and {:.2f} rad",
                                           drift.off_m, drift.off_rad)};
-    return {match.T_old_new, {}, !drift.possible};
+    return {match.T_old_new, {}, !drift.possible || drift.off_m > kAlways};
 }
 
 FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old,

@@ -31,7 +31,7 @@ class LoopVerifier {
     struct Match {
         std::optional<Eigen::Isometry3d> T_old_new;
         std::string reason;            // why there is none
-        bool ask_for_texture = false;  // the drift is conceivable only
+        bool ask_for_texture = false;  // with less drift it would be another place of that kind
     };
     // By features, if the drift that follows is conceivable.
     Match MatchKeyframes(const Keyframe& old, const Keyframe& fresh) const;

@@ -19,13 +19,26 @@ CameraCalibration CalibrationOf(const RecordingInfo& info) {
     return calibration;
 }
 
+// Colour is registered to depth, so that what is found out about one lens holds for both.
+bool HasOneCamera(const RecordingInfo& info) {
+    constexpr double kSame_px = 0.5;
+    const PinholeCamera& colour = info.colour_camera.pinhole;
+    const PinholeCamera depth = ScaledTo(info.depth_camera.pinhole, colour.width, colour.height);
+    return info.T_colour_depth.matrix().isIdentity(1e-9) &&
+           Eigen::Vector4d(colour.fx - depth.fx, colour.fy - depth.fy, colour.cx - depth.cx,
+                           colour.cy - depth.cy)
+                   .cwiseAbs()
+                   .maxCoeff() <= kSame_px;
+}
+
 // The recording's cameras with what the configuration says.
 RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
     if (config.depth_scale > 0) info.depth_camera.depth_scale = config.depth_scale;
     if (config.camera) {
+        const bool one_camera = HasOneCamera(info);
         info.depth_camera.pinhole = WithSizeOf(info.depth_camera.pinhole, *config.camera);
         const PinholeCamera& colour = info.colour_camera.pinhole;
-        if (info.T_colour_depth.matrix().isIdentity(1e-9))
+        if (one_camera)
             info.colour_camera.pinhole =
                 ScaledTo(info.depth_camera.pinhole, colour.width, colour.height);
     }
@@ -77,7 +90,7 @@ class RecordingSource : public FrameSource {
         info_.kind = recorded_.kind;
         info_.camera = recorded_.depth_camera.pinhole;
         info_.camera_known = recorded_.camera_known;
-        info_.one_camera = recorded_.T_colour_depth.matrix().isIdentity(1e-9);
+        info_.one_camera = HasOneCamera(recorded_);
         info_.frame_count = std::ssize(recorded_.pairs);
         info_.fps = recorded_.fps;
         info_.depth_units_per_m = recorded_.depth_camera.depth_scale;

@@ -15,8 +15,37 @@ namespace {
 constexpr int kRegionColumns = 5, kRegionRows = 4, kRegions = kRegionColumns * kRegionRows;
 constexpr int kLeastRegions = 5;
 
-int RegionOf(int column, int columns, int row, int rows) {
-    return row * kRegionRows / rows * kRegionColumns + column * kRegionColumns / columns;
+// Divides a rectangle of blocks, whose rows follow each other, into regions.
+struct RegionGrid {
+    int image_columns;  // blocks in a row of the image
+    int columns, rows;
+    int first_column = 0, first_row = 0;
+
+    std::size_t RegionOf(int block) const {
+        const int column = block % image_columns - first_column,
+                  row = block / image_columns - first_row;
+        return static_cast<std::size_t>(row * kRegionRows / rows * kRegionColumns +
+                                        column * kRegionColumns / columns);
+    }
+};
+
+// The whole image; or if what is seen covers too few of its regions, the rectangle around that: a
+// small object is seen by itself.
+template <class Seen>
+RegionGrid GridOf(int columns, int blocks, const Seen& seen) {
+    const RegionGrid image{columns, columns, blocks / columns};
+    std::array<bool, kRegions> covered{};
+    int x0 = columns, x1 = -1, y0 = image.rows, y1 = -1;
+    for (int block = 0; block < blocks; ++block) {
+        if (!seen(block)) continue;
+        covered[image.RegionOf(block)] = true;
+        x0 = std::min(x0, block % columns);
+        x1 = std::max(x1, block % columns);
+        y0 = std::min(y0, block / columns);
+        y1 = std::max(y1, block / columns);
+    }
+    if (x1 < 0 || std::ranges::count(covered, true) >= kLeastRegions) return image;
+    return {columns, x1 - x0 + 1, y1 - y0 + 1, x0, y0};
 }
 
 // The scores (weight times Jacobian times residual) and Hessians of the image's regions.
@@ -65,13 +94,17 @@ double DistanceVariance(const ResidualEvidence& e, double shared_m) {
     to_metres.head<3>() /= e.scene_depth_m;
     Regions<6> regions;
     double weights = 0, weights2 = 0;
-    const int columns = DistanceSums::Columns(e.arguments),
-              blocks = DistanceSums::Groups(e.arguments) / 4;
+    const int blocks = DistanceSums::Groups(e.arguments) / 4;
+    const double* const sums = e.sums.distances.data();
+    const RegionGrid grid = GridOf(DistanceSums::Columns(e.arguments), blocks, [sums](int block) {
+        const double* const s = sums + 4 * block * DistanceSums::kSums;
+        constexpr int kNext = DistanceSums::kSums;
+        return s[0] > 0 || s[kNext] > 0 || s[2 * kNext] > 0 || s[3 * kNext] > 0;
+    });
     for (int block = 0; block < blocks; ++block) {
-        const auto region = static_cast<std::size_t>(
-            RegionOf(block % columns, columns, block / columns, blocks / columns));
+        const std::size_t region = grid.RegionOf(block);
         for (int patch = 4 * block; patch < 4 * block + 4; ++patch) {
-            const double* const s = e.sums.distances.data() + patch * DistanceSums::kSums;
+            const double* const s = sums + patch * DistanceSums::kSums;
             if (s[0] <= 0) continue;
             const Vector6d jacobian =
                 to_metres.asDiagonal() * Eigen::Map<const Vector6d>(s + DistanceSums::kJacobian);
@@ -89,11 +122,14 @@ double DistanceVariance(const ResidualEvidence& e, double shared_m) {
 IntensityErrors IntensityErrorsOf(const ResidualEvidence& e, double shading_error) {
     Regions<2> regions;
     double shading_scores2 = 0, information = 0, both = 0, map2 = 0, map_scores2 = 0;
-    const int columns = ScoreSums::Columns(e.arguments), blocks = ScoreSums::Groups(e.arguments);
+    const int blocks = ScoreSums::Groups(e.arguments);
+    const double* const sums = e.sums.scores.data();
+    const RegionGrid grid = GridOf(ScoreSums::Columns(e.arguments), blocks, [sums](int block) {
+        return sums[block * ScoreSums::kSums + 4] > 0;
+    });
     for (int block = 0; block < blocks; ++block) {
-        const auto region = static_cast<std::size_t>(
-            RegionOf(block % columns, columns, block / columns, blocks / columns));
-        const double* const s = e.sums.scores.data() + block * ScoreSums::kSums;
+        const std::size_t region = grid.RegionOf(block);
+        const double* const s = sums + block * ScoreSums::kSums;
         regions.scores[region] += Eigen::Vector2d(s[0], s[1]);
         regions.hessians[region] += 0.5 * s[4] * Eigen::Matrix2d::Identity();
         shading_scores2 += s[2] * s[2] + s[3] * s[3];

@@ -70,6 +70,34 @@ TEST(RecordingSource, DeliversFramesInMetresAndSkipsBadOnes) {
     EXPECT_FALSE(source->Seek(11));
 }
 
+// As `finish` reads what a run has read: with the intrinsics of depth that the run used.
+TEST(RecordingSource, ColourWithALensOfItsOwnKeepsIt) {
+    class Ramp : public MadeUpRecording {
+        Status Load(std::size_t index, Image<std::uint16_t>& depth, ColourImage& colour) override {
+            const Status status = MadeUpRecording::Load(index, depth, colour);
+            for (int y = 0; y < colour.height(); ++y)
+                for (int x = 0; x < colour.width(); ++x)
+                    colour(x, y).r = static_cast<std::uint8_t>(8 * x);
+            return status;
+        }
+    };
+    const auto first_red = [](double colour_fx, bool camera_given) {
+        auto recording = std::make_unique<Ramp>();
+        recording->info_.colour_camera.pinhole.fx = colour_fx;
+        FolderSourceConfig config;
+        if (camera_given) config.camera = kSmallCamera;
+        const auto source = MadeUpSource(std::move(recording), config);
+        EXPECT_EQ(source->info().one_camera, colour_fx == 30);
+        Frame frame;
+        EXPECT_EQ(source->Read(frame).status, ReadStatus::kOk);
+        return int{frame.colour(10, 12).r};
+    };
+    EXPECT_EQ(first_red(30, false), 80);
+    EXPECT_EQ(first_red(30, true), 80);
+    EXPECT_NEAR(first_red(45, false), 8 * (15.5 - 1.5 * 5.5), 2);
+    EXPECT_EQ(first_red(45, true), first_red(45, false));
+}
+
 TEST(RecordingSource, SaysWhetherThereIsColour) {
     for (const bool has_colour : {false, true}) {
         auto recording = std::make_unique<MadeUpRecording>();

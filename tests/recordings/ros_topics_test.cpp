@@ -17,6 +17,7 @@
 #include "recordings/ros_images_of.h"
 #include "recordings/ros_recording.h"
 #include "recordings/ros_recording_fixture.h"
+#include "support/temp_folder.h"
 
 namespace tessera {
 namespace {
@@ -130,8 +131,8 @@ TEST(RosTopics, InfraredOf16BitsIsDepthOnlyOnRequest) {
 }
 
 TEST(RosTopics, ACameraInfoOfZerosIsNone) {
-    TemporaryFolder folder;
-    const std::string file = folder.Path("camera.yaml");
+    const TempFolder folder;  // a TemporaryFolder would go with that of Open
+    const std::string file = folder / "camera.yaml";
     WriteRosFile(file, "width: 64\nheight: 48\nfx: 41\nfy: 42\ncx: 32\ncy: 24\n");
     std::vector<Message> zeros = PlainMessages(), no_size = zeros;
     constexpr std::size_t kMatrixBytes = (9 + 9 + 12) * sizeof(double);

@@ -20,6 +20,22 @@ TEST_F(LearntScales, AreTheVariancesOfIndependentErrors) {
     EXPECT_NEAR(model_->alpha(), 0.01, 0.007);
 }
 
+// An object in a small part of the image is seen by itself.
+TEST_F(LearntScales, ASmallObjectTeachesThem) {
+    for (int y = 0; y < points_.height(); ++y)
+        for (int x = 0; x < points_.width(); ++x)
+            if (x > points_.width() / 6 || y > points_.height() / 4)
+                residuals_.distance_m[Index(x, y)] = residuals_.intensity[Index(x, y)] = NAN;
+    const ResidualScales scales = Learn();
+    EXPECT_NEAR(scales.distance_m2, 4e-6, 2.5e-6);
+    EXPECT_NEAR(scales.intensity, 4e-4, 3e-4);
+}
+
+TEST_F(LearntScales, NothingTeachesNothing) {
+    for (float& r : residuals_.distance_m) r = NAN;
+    EXPECT_EQ(Learn().distance_m2, 0);
+}
+
 // Errors shared by neighbours count more the more neighbours share them. Here 32 x 32 points do,
 // about half a region across.
 TEST_F(LearntScales, GrowWithErrorsThatNeighboursShare) {
