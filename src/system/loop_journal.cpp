@@ -5,6 +5,7 @@
 namespace tessera {
 
 void LoopJournal::Begin(const LoopCloser& closer) {
+    begun_ = true;
     passages_ = closer.graph().passages().size();
     next_ordinal_ = closer.store().next_ordinal();
     touched_.clear();
@@ -18,6 +19,7 @@ void LoopJournal::Begin(const LoopCloser& closer) {
 }
 
 LoopChanges LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
+    if (!std::exchange(begun_, true)) most_frames = closer.store().frames().size();
     LoopChanges news;
     news.passages.assign(closer.graph().passages().begin() + static_cast<std::ptrdiff_t>(passages_),
                          closer.graph().passages().end());

@@ -20,17 +20,19 @@ struct LoopChanges {
     LoopProgress progress;
 };
 
-// Owner thread only: the closer's. Without Begin, the first Take reports all that the closer has.
+// Owner thread only: the closer's. Without Begin, the first Take reports all that the closer has,
+// so that a scan which is saved in the middle of a run is whole at once.
 class LoopJournal {
   public:
     // Marks all that the closer has now as already reported.
     void Begin(const LoopCloser& closer);
     // Marks a frame whose detections arrived late.
     void Touch(std::int64_t frame_index) { touched_.push_back(frame_index); }
-    // Returns at most `most_frames` new frames. The rest follow in later calls.
+    // Afterwards at most `most_frames` new frames. The rest follow in later calls.
     LoopChanges Take(const LoopCloser& closer, std::size_t most_frames = 4);
 
   private:
+    bool begun_ = false;
     std::size_t passages_ = 0;
     std::int64_t next_ordinal_ = 0;
     std::vector<KeyframePoses> poses_;   // by keyframe id, as last reported
