@@ -145,6 +145,20 @@ TEST_F(CameraSearchTest, ANewPartOwesNothingToAPlaceThatWasNeverReached) {
     EXPECT_TRUE(frame_.to_fuse);
 }
 
+// A second view has just confirmed the place; before the next frame is tracked, a new part begins.
+TEST_F(CameraSearchTest, NorToAPlaceThatItHasLeft) {
+    LoseIt();
+    search_.Land(FoundCamera{At(9), 4}, See(1.1, 9));
+    EXPECT_EQ(Told(), 4);
+    ASSERT_EQ(search_.AfterTracking(See(1.2, 10.5), true).question, Question::kSecondView);
+    const char* note = "";
+    ASSERT_TRUE(search_.TakeSecondView(FoundCamera{At(10.5), 7}, note));
+    search_.AfterTracking(See(1.3, 10.5, TrackStatus::kLost), true);
+    EXPECT_FALSE(Told());
+    search_.AfterTracking(SeeFirst(4, 1000), true);
+    EXPECT_FALSE(Told());
+}
+
 // Its frames were poor for long, or left a motion open.
 TEST_F(CameraSearchTest, OneInDoubtIsConfirmedOrMoved) {
     const auto doubt = [this](CameraSearch& search) {
