@@ -71,7 +71,7 @@ Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges,
 
 double EdgeJacobianError(const PoseEdge& edge, const Eigen::Isometry3d& T_world_from,
                          const Eigen::Isometry3d& T_world_to) {
-    constexpr double kStep = 1e-6;
+    constexpr double kDifference = 1e-6;
     PoseNode from(T_world_from), to(T_world_to);
     double* blocks[] = {from.q.coeffs().data(), from.t.data(), to.q.coeffs().data(), to.t.data()};
     const int sizes[] = {4, 3, 4, 3};
@@ -85,7 +85,7 @@ double EdgeJacobianError(const PoseEdge& edge, const Eigen::Isometry3d& T_world_
             const double value = blocks[block][k];
             Vector6d sides[2];
             for (int side = 0; side < 2; ++side) {
-                blocks[block][k] = value + (side == 0 ? kStep : -kStep);
+                blocks[block][k] = value + (side == 0 ? kDifference : -kDifference);
                 EdgeResidualOf(edge, blocks[0], blocks[1], blocks[2], blocks[3],
                                sides[side].data());
             }
@@ -93,8 +93,8 @@ double EdgeJacobianError(const PoseEdge& edge, const Eigen::Isometry3d& T_world_
             for (int row = 0; row < 6; ++row) {
                 const double exact = jacobian[block][row * sizes[block] + k];
                 largest = std::max(largest, std::abs(exact));
-                error = std::max(error,
-                                 std::abs(exact - (sides[0](row) - sides[1](row)) / (2 * kStep)));
+                error = std::max(
+                    error, std::abs(exact - (sides[0](row) - sides[1](row)) / (2 * kDifference)));
             }
         }
     return error / largest;

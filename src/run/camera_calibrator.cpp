@@ -161,11 +161,11 @@ Result<CalibrationResult> CameraCalibrator::Solve(double depth_units_per_m) cons
 
 // Where a pixel's ray meets the board's plane is its true depth. Each view counts once.
 void CameraCalibrator::FindDepthFactor(const Poses& poses, CalibrationResult& result) const {
-    constexpr std::size_t kLeastSamples = 50;
+    constexpr std::size_t kLeastInView = 50;
     std::vector<double> factors;
     for (std::size_t i = 0; i < poses.used.size(); ++i) {
         const std::vector<DepthSample>& samples = views_[poses.used[i]].depth;
-        if (samples.size() < kLeastSamples) continue;
+        if (samples.size() < kLeastInView) continue;
         cv::Mat rotation;
         cv::Rodrigues(poses.rotations[i], rotation);
         const cv::Mat& t = poses.translations[i];

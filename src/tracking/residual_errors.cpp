@@ -21,6 +21,12 @@ struct RegionGrid {
     int columns, rows;
     int first_column = 0, first_row = 0;
 
+    bool Has(int block) const {
+        const int column = block % image_columns - first_column,
+                  row = block / image_columns - first_row;
+        return column >= 0 && column < columns && row >= 0 && row < rows;
+    }
+    // Only if Has(block).
     std::size_t RegionOf(int block) const {
         const int column = block % image_columns - first_column,
                   row = block / image_columns - first_row;
@@ -102,6 +108,7 @@ double DistanceVariance(const ResidualEvidence& e, double shared_m) {
         return s[0] > 0 || s[kNext] > 0 || s[2 * kNext] > 0 || s[3 * kNext] > 0;
     });
     for (int block = 0; block < blocks; ++block) {
+        if (!grid.Has(block)) continue;
         const std::size_t region = grid.RegionOf(block);
         for (int patch = 4 * block; patch < 4 * block + 4; ++patch) {
             const double* const s = sums + patch * DistanceSums::kSums;
@@ -128,10 +135,12 @@ IntensityErrors IntensityErrorsOf(const ResidualEvidence& e, double shading_erro
         return sums[block * ScoreSums::kSums + 4] > 0;
     });
     for (int block = 0; block < blocks; ++block) {
-        const std::size_t region = grid.RegionOf(block);
         const double* const s = sums + block * ScoreSums::kSums;
-        regions.scores[region] += Eigen::Vector2d(s[0], s[1]);
-        regions.hessians[region] += 0.5 * s[4] * Eigen::Matrix2d::Identity();
+        if (grid.Has(block)) {
+            const std::size_t region = grid.RegionOf(block);
+            regions.scores[region] += Eigen::Vector2d(s[0], s[1]);
+            regions.hessians[region] += 0.5 * s[4] * Eigen::Matrix2d::Identity();
+        }
         shading_scores2 += s[2] * s[2] + s[3] * s[3];
         information += s[4];
         both += s[5] - (s[7] > 0 ? (s[2] * s[8] + s[3] * s[9]) / s[7] : 0);
