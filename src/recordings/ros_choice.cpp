@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "io/nominal_camera.h"
@@ -91,9 +92,10 @@ std::optional<Eigen::Isometry3d> BetweenStreams(const RosContents& contents,
 // "a, b and 3 more".
 std::string TopicList(const std::vector<std::string>& topics) {
     constexpr std::size_t kMostNamed = 20;
-    const std::size_t named = std::min(topics.size(), kMostNamed);
-    std::string text = fmt::format("{}", fmt::join(topics.begin(), topics.begin() + named, ", "));
-    if (topics.size() > named) text += fmt::format(" and {} more", topics.size() - named);
+    const auto named = std::span(topics).first(std::min(topics.size(), kMostNamed));
+    std::string text = fmt::format("{}", fmt::join(named, ", "));
+    if (topics.size() > named.size())
+        text += fmt::format(" and {} more", topics.size() - named.size());
     return text;
 }
 

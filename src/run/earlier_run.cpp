@@ -10,25 +10,24 @@
 #include "run/open_source.h"
 
 namespace tessera {
-namespace {
 
 namespace fs = std::filesystem;
 
-// Those of the run, and what people made of them in the window.
-std::vector<std::string> FilesOfRun(const std::string& folder) {
-    std::vector<std::string> files = {
-        "mesh.ply",       "preview.png",      "objects.json",   "timings.json",
-        "detections.txt", "frames.csv",       "trajectory.txt", "trajectory_tracked.txt",
-        "run.json",       "measurements.json"};
+std::vector<std::string> ResultsIn(const std::string& folder) {
+    std::vector<std::string> files;
     std::error_code ignored;
-    for (int clock = 1;; ++clock) {
-        const std::string name = NumberedPath("trajectory.txt", clock);
-        if (!fs::exists(folder + "/" + name, ignored)) return files;
-        files.push_back(name);
-    }
+    const auto add = [&](const std::string& name) {
+        const bool exists = fs::exists(folder + "/" + name, ignored);
+        if (exists) files.push_back(name);
+        return exists;
+    };
+    for (const char* name :
+         {"mesh.ply", "preview.png", "objects.json", "timings.json", "detections.txt",
+          "trajectory.txt", "frames.csv", "trajectory_tracked.txt"})
+        add(name);
+    for (int clock = 1; add(NumberedPath("trajectory.txt", clock));) ++clock;
+    return files;
 }
-
-}  // namespace
 
 Result<std::string> KeepEarlierRun(const std::string& folder) {
     const Result<RunRecord> run = ReadRunRecord(folder + "/run.json");
@@ -42,9 +41,11 @@ Result<std::string> KeepEarlierRun(const std::string& folder) {
         if (fs::create_directory(free, error)) kept = free;
         if (error) return Status::Error(fmt::format("{}: {}", free, error.message()));
     }
-    for (const std::string& name : FilesOfRun(folder)) {
+    std::vector<std::string> files = ResultsIn(folder);
+    files.push_back("run.json");
+    if (fs::exists(folder + "/measurements.json", error)) files.push_back("measurements.json");
+    for (const std::string& name : files) {
         const std::string from = folder + "/" + name;
-        if (!fs::exists(from, error)) continue;
         fs::rename(from, kept + "/" + name, error);
         if (error) return Status::Error(fmt::format("{}: {}", from, error.message()));
     }

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/status.h"
 
 namespace tessera {
+
+// Names of the results in `folder` that the next run into it writes anew, or leaves out.
+std::vector<std::string> ResultsIn(const std::string& folder);
 
 // If `folder` has the results of a run of a camera that tracked a frame, moves them to
 // folder/earlier_1, or the next number that is free, and returns that folder. Else returns "" and

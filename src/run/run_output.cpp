@@ -10,6 +10,7 @@
 #include "io/trajectory.h"
 #include "render/coarse_mesh.h"
 #include "render/mesh_picture.h"
+#include "run/earlier_run.h"
 #include "run/run_report.h"
 #include "semantics/detections_file.h"
 
@@ -66,11 +67,8 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
     if (Status status = PrepareOutputFolder(request.output_folder); !status.ok()) return status;
     std::unique_ptr<RunOutput> output(new RunOutput(request, config));
     std::error_code ignored;
-    for (const char* name :
-         {"mesh.ply", "preview.png", "objects.json", "timings.json", "detections.txt",
-          "trajectory.txt", "frames.csv", "trajectory_tracked.txt"})
+    for (const std::string& name : ResultsIn(request.output_folder))
         std::filesystem::remove(output->Path(name), ignored);
-    for (int clock = 1; std::filesystem::remove(output->EarlierPath(clock), ignored);) ++clock;
     RunSummary unfinished;
     unfinished.source = source;
     unfinished.exit = "unfinished";

@@ -19,10 +19,7 @@ CameraSearch::Step CameraSearch::AfterTracking(TrackedFrame& tracked, bool may_a
         if (may_ask && tracked.prepared.valid_depth_pixels > 0) step.question = Question::kWhere;
         return step;
     }
-    if (by_appearance && verdict == Verdict::kFoundAgain) {
-        found_at_ = keyframe_;
-        step.note = Arrive(tracked);
-    }
+    if (by_appearance && verdict == Verdict::kFoundAgain) step.note = Arrive(tracked);
     const Eigen::Isometry3d& T_map_camera = tracked.report.track.T_world_camera;
     // While a place is checked, a camera in doubt is looked for only there.
     if (verdict == Verdict::kDoubtful && !place_.open()) {
@@ -83,7 +80,7 @@ std::optional<Eigen::Isometry3d> CameraSearch::TakeWhere(const std::optional<Fou
         camera_.Doubt();
     }
     camera_.SetRelocalised(stamp_s);
-    keyframe_ = found->keyframe;
+    found_at_ = found->keyframe;
     return found->T_map_camera;
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "system/lost_camera.h"
 #include "system/place_check.h"
@@ -69,7 +68,6 @@ class CameraSearch {
 
     LostCamera camera_;
     PlaceCheck place_;
-    std::optional<int> keyframe_;  // beside which it was found, until tracking confirms that
     std::optional<int> found_at_;  // for the next frame that is tracked: see TrackedFrame
     // Where a camera in doubt was tracked when it was asked for.
     std::optional<Eigen::Isometry3d> T_doubted_;

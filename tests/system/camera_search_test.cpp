@@ -145,6 +145,14 @@ TEST_F(CameraSearchTest, ANewPartOwesNothingToAPlaceThatWasNeverReached) {
     EXPECT_TRUE(frame_.to_fuse);
 }
 
+// Loops were switched off after the camera was found: nothing is judged, but it has moved there.
+TEST_F(CameraSearchTest, WhereItWasFoundIsToldEvenIfNothingIsJudged) {
+    LoseIt();
+    ASSERT_TRUE(search_.TakeWhere(FoundCamera{At(9), 4}, 1.3));
+    See(1.3, 9);
+    EXPECT_EQ(Told(), 4);
+}
+
 // A second view has just confirmed the place; before the next frame is tracked, a new part begins.
 TEST_F(CameraSearchTest, NorToAPlaceThatItHasLeft) {
     LoseIt();
