@@ -44,6 +44,7 @@ struct ExportArguments {
 struct Content {
     TriangleMesh mesh;
     std::vector<StampedPose> path;
+    double disparity_offset_per_m = 0;  // by which the mesh's depth differs from the raw frames'
 };
 
 Result<Content> FromScan(const ExportArguments& a) {
@@ -53,6 +54,8 @@ Result<Content> FromScan(const ExportArguments& a) {
     if (!scan.ok()) return scan.status();
     Content content;
     content.path = scan.value().Path();
+    content.disparity_offset_per_m =
+        ConfigOf(scan.value().meta).pipeline.frame.disparity_offset_per_m;
     if (!a.grid.empty())
         if (Status status = WriteVdb(a.grid, *scan.value().map); !status.ok()) return status;
     if (!a.NeedsMesh()) return content;
@@ -124,7 +127,8 @@ Status Write(const ExportArguments& a, const Content& content) {
     if (!a.colmap.empty())
         if (Status status = WriteColmap(a.input, content.mesh, a.colmap); !status.ok())
             return status;
-    if (a.WantsTransforms()) return WriteTransforms(a.input, content.mesh, a.frames);
+    if (a.WantsTransforms())
+        return WriteTransforms(a.input, content.mesh, a.frames, content.disparity_offset_per_m);
     if (a.frames.empty()) return Status::Ok();
     const auto notes = ExportFrames(a.input, a.frames);
     if (!notes.ok()) return notes.status();

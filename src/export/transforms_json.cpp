@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "export/image_set.h"
 #include "io/file.h"
 #include "io/image_io.h"
 #include "io/mesh_writers.h"
 #include "io/png_encoder.h"
+#include "mapping/frame_kernels.h"
 
 namespace tessera {
 namespace {
@@ -43,13 +45,17 @@ Json Head(const PinholeCamera& camera) {
 // Writes depth images in the units and encoding that other programs expect.
 class DepthFiles {
   public:
-    DepthFiles(const PinholeCamera& camera, double units_per_m)
-        : camera_(camera), decoder_(0, units_per_m) {}
+    DepthFiles(const PinholeCamera& camera, double units_per_m, double disparity_offset_per_m)
+        : camera_(camera),
+          decoder_(0, units_per_m),
+          disparity_offset_per_m_(static_cast<float>(disparity_offset_per_m)) {}
 
     Status Write(const EncodedImages& images, const std::string& path) {
         if (Status status = decoder_.Decode(images, frame_); !status.ok()) return status;
         if (frame_.depth_m.width() != camera_.width || frame_.depth_m.height() != camera_.height)
             return Status::Error("does not have the camera's size");
+        for (float& z_m : std::span(frame_.depth_m.data(), frame_.depth_m.size()))
+            z_m = CorrectedDepth(z_m, disparity_offset_per_m_);
         StoreDepth(frame_.depth_m, kDepthUnitsPerMetre, depth_mm_);
         encoder_.EncodeDepth(depth_mm_, file_);
         return WriteImageFile(path, file_);
@@ -58,6 +64,7 @@ class DepthFiles {
   private:
     const PinholeCamera camera_;
     FrameStore decoder_;  // used for decoding only
+    const float disparity_offset_per_m_;
     Frame frame_;
     Image<std::uint16_t> depth_mm_;
     PngEncoder encoder_;
@@ -71,8 +78,9 @@ Status WritePoints(const TriangleMesh& mesh, const std::string& path) {
     return WritePlyCloud(path, points);
 }
 
-Status WriteFrames(PosedFrames& frames, const std::string& folder, Json& list) {
-    DepthFiles depth(frames.camera(), frames.depth_units_per_m());
+Status WriteFrames(PosedFrames& frames, const std::string& folder, double disparity_offset_per_m,
+                   Json& list) {
+    DepthFiles depth(frames.camera(), frames.depth_units_per_m(), disparity_offset_per_m);
     const Eigen::Isometry3d T_opencv_opengl(
         Eigen::DiagonalMatrix<double, 3>(1, -1, -1).toDenseMatrix());
     return frames.ForEach([&](const PosedFrame& frame) {
@@ -100,7 +108,7 @@ Eigen::Isometry3d ZUpFromWorld() {
 }
 
 Status WriteTransforms(const std::string& scan_path, const TriangleMesh& mesh,
-                       const std::string& json_path) {
+                       const std::string& json_path, double disparity_offset_per_m) {
     Result<std::unique_ptr<PosedFrames>> frames = PosedFrames::Open(scan_path);
     if (!frames.ok()) return frames.status();
     const std::string parent = std::filesystem::path(json_path).parent_path();
@@ -109,7 +117,9 @@ Status WriteTransforms(const std::string& scan_path, const TriangleMesh& mesh,
         if (Status status = MakeImageFolder(folder + name); !status.ok()) return status;
     Json json = Head(frames.value()->camera());
     Json list = Json::array();
-    if (Status status = WriteFrames(*frames.value(), folder, list); !status.ok()) return status;
+    if (Status status = WriteFrames(*frames.value(), folder, disparity_offset_per_m, list);
+        !status.ok())
+        return status;
     json["frames"] = std::move(list);
     if (Status status = WritePoints(mesh, folder + "points.ply"); !status.ok()) return status;
     return WriteTextFile(json_path, json.dump(1) + "\n");

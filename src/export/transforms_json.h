@@ -18,9 +18,10 @@ Eigen::Isometry3d ZUpFromWorld();
 // of the mesh's vertices, in the z-up world). Camera axes are OpenGL's (x right, y up, z back).
 // These programs measure the principal point from the corner of the top-left pixel, so it is ours
 // plus a half. Lens coefficients are 0, because the images are ideal. The JSON file is written
-// last. `mesh` is in the scan's world. Errors: no raw frames (the error names the key that keeps
-// them), folders that already contain files, write errors.
+// last. `mesh` is in the scan's world. `disparity_offset_per_m`: with which its depth was corrected
+// (PreparedFrame::Config), as the depth images then are, too. Errors: no raw frames (the error
+// names the key that keeps them), folders that already contain files, write errors.
 Status WriteTransforms(const std::string& scan_path, const TriangleMesh& mesh,
-                       const std::string& json_path);
+                       const std::string& json_path, double disparity_offset_per_m = 0);
 
 }  // namespace tessera

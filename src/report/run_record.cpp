@@ -58,6 +58,15 @@ void TakeCorrections(const Json& json, RunRecord& record) {
     const Json shift = used("colour_shift");
     Take(shift, "x_px", record.colour_shift_px[0]);
     Take(shift, "y_px", record.colour_shift_px[1]);
+    Take(Child(json, "configuration"), "frame.disparity_offset_per_m",
+         record.disparity_offset_per_m);
+    if (const Json refined = used("calibration"); !refined.empty()) {
+        std::array<double, 2> focal_px = {0, 0};
+        Take(refined, "fx", focal_px[0]);
+        Take(refined, "fy", focal_px[1]);
+        Take(refined, "disparity_offset_per_m", record.disparity_offset_per_m);
+        if (focal_px[0] > 0 && focal_px[1] > 0) record.refined_focal_px = focal_px;
+    }
     DepthDistortion depth;
     const Json errors = used("depth_distortion");
     Take(errors, "columns", depth.columns);

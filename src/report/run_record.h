@@ -28,6 +28,9 @@ struct RunRecord {
     double depth_readout_s = 0, colour_readout_s = 0;  // with which tracking began
     std::array<double, 2> colour_shift_px = {0, 0};    // as corrected; right and down; 0: not
     DepthDistortion depth_distortion;                  // as corrected; empty: not
+    double disparity_offset_per_m = 0;  // of the model: as set, or as calibration.refine found it
+    // fx and fy of the model, where calibration.refine found others than the camera's.
+    std::optional<std::array<double, 2>> refined_focal_px;
     bool has_truth = false;
     std::vector<std::string> command_line, warnings;
     std::vector<std::pair<std::string, std::int64_t>> counts;  // "frames", "tracked", "lost", ...

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 #include <unordered_map>
 
 #include "export/level.h"
@@ -10,9 +11,12 @@
 #include "finish/view_choice.h"
 #include "io/chosen_frames.h"
 #include "io/frame_reader.h"
+#include "mapping/frame_kernels.h"
 #include "run/open_source.h"
 #include "run/run_source.h"
+#include "run/scan_export.h"
 #include "run/scanned.h"
+#include "scan/scan_content.h"
 #include "scan/scan_source.h"
 
 namespace tessera {
@@ -21,7 +25,9 @@ namespace {
 struct Input {
     Scanned scanned;
     std::unique_ptr<FrameSource> frames;
+    PinholeCamera camera;  // with which the mesh was made
     double depth_readout_s = 0, colour_readout_s = 0;
+    double disparity_offset_per_m = 0;  // by which the mesh's depth differs from the frames'
 };
 
 Result<Input> FromScan(const std::string& path) {
@@ -29,9 +35,15 @@ Result<Input> FromScan(const std::string& path) {
     if (!frames.ok()) return frames.status();
     Result<Scanned> scanned = ReadScanFile(path);
     if (!scanned.ok()) return scanned.status();
-    const SourceInfo& info = frames.value()->info();
-    return Input{std::move(scanned.value()), std::move(frames.value()), info.depth_readout_s,
-                 info.colour_readout_s};
+    const Result<ScanMeta> meta = ReadScanMeta(path);
+    if (!meta.ok()) return meta.status();
+    const SourceInfo info = frames.value()->info();
+    return Input{std::move(scanned.value()),
+                 std::move(frames.value()),
+                 info.camera,
+                 info.depth_readout_s,
+                 info.colour_readout_s,
+                 ConfigOf(meta.value()).pipeline.frame.disparity_offset_per_m};
 }
 
 Result<Input> FromRun(const std::string& folder, const std::string& source) {
@@ -40,9 +52,17 @@ Result<Input> FromRun(const std::string& folder, const std::string& source) {
     const Result<RunRecord> record = ReadRunRecord(folder + "/run.json");
     if (!record.ok()) return record.status();
     Result<std::unique_ptr<FrameSource>> frames = OpenSourceOf(record.value(), source);
-    if (frames.ok())
-        return Input{std::move(scanned.value()), std::move(frames.value()),
-                     record.value().depth_readout_s, record.value().colour_readout_s};
+    if (frames.ok()) {
+        const RunRecord& run = record.value();
+        PinholeCamera camera = frames.value()->info().camera;
+        if (run.refined_focal_px) {
+            camera.fx = (*run.refined_focal_px)[0];
+            camera.fy = (*run.refined_focal_px)[1];
+        }
+        return Input{
+            std::move(scanned.value()), std::move(frames.value()), camera,
+            run.depth_readout_s,        run.colour_readout_s,      run.disparity_offset_per_m};
+    }
     if (!source.empty()) return frames.status();
     return Status::Error(folder + ": " + frames.message() + "; " +
                          (IsLiveSource(record.value().source_name)
@@ -69,12 +89,25 @@ class Poses {
     std::unordered_map<std::int64_t, Eigen::Isometry3d> poses_;
 };
 
+// As PreparedFrame does it for the map.
+void CorrectDisparity(float offset_per_m, DepthImage& depth_m) {
+    if (offset_per_m == 0) return;
+    for (float& z_m : std::span(depth_m.data(), depth_m.size())) {
+        z_m = CorrectedDepth(z_m, offset_per_m);
+        if (!std::isfinite(z_m) || z_m < 0) z_m = 0;
+    }
+}
+
 // Reads frames of a source, with their poses, ahead on a thread of its own: first some of all, then
-// those at given times. Owner thread only.
+// those at given times. Their depth is corrected as the mesh's was. Owner thread only.
 class FinishFrameReader {
   public:
-    FinishFrameReader(std::unique_ptr<FrameSource> source, const std::vector<StampedPose>& path)
-        : info_(source->info()), source_(std::move(source)), poses_(path) {}
+    FinishFrameReader(std::unique_ptr<FrameSource> source, const std::vector<StampedPose>& path,
+                      double disparity_offset_per_m)
+        : info_(source->info()),
+          source_(std::move(source)),
+          poses_(path),
+          disparity_offset_per_m_(static_cast<float>(disparity_offset_per_m)) {}
 
     const SourceInfo& info() const { return info_; }
     // Why reading has failed.
@@ -111,6 +144,7 @@ class FinishFrameReader {
         while (read.status == ReadStatus::kSkip || read.status == ReadStatus::kWait);
         if (read.status == ReadStatus::kError) failed_ = Status::Error(read.message);
         if (read.status != ReadStatus::kOk) return false;
+        CorrectDisparity(disparity_offset_per_m_, frame.depth_m);
         frame.T_world_camera = poses_.At(frame.stamp_s);
         posed_ += frame.T_world_camera.has_value() && !frame.colour.empty();
         return true;
@@ -132,6 +166,7 @@ class FinishFrameReader {
     std::unique_ptr<FrameSource> source_;  // null if the reader has it
     std::unique_ptr<FrameReader> reader_;  // of the source
     const Poses poses_;
+    const float disparity_offset_per_m_;
     Status failed_;
     std::int64_t posed_ = 0;
 };
@@ -157,7 +192,8 @@ Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgre
             return Status::Error("--box: " + path + ": " + status.message());
     // A scan's sessions may have clocks of their own.
     std::ranges::stable_sort(scanned.path, {}, &StampedPose::stamp_s);
-    FinishFrameReader reader(std::move(input.value().frames), scanned.path);
+    FinishFrameReader reader(std::move(input.value().frames), scanned.path,
+                             input.value().disparity_offset_per_m);
     const SourceInfo info = reader.info();
     const NextPosedFrame next = [&](Frame& frame) { return reader.Next(frame); };
     reader.BeginSample();
@@ -170,8 +206,8 @@ Result<FinishedModel> FinishRun(const FinishRequest& request, const FinishProgre
     frames.count = info.frame_count;
     frames.depth_readout_s = input.value().depth_readout_s;
     frames.colour_readout_s = input.value().colour_readout_s;
-    Result<FinishedModel> finished = FinishModel(std::move(scanned.mesh), info.camera, scanned.path,
-                                                 frames, request.options, progress);
+    Result<FinishedModel> finished = FinishModel(std::move(scanned.mesh), input.value().camera,
+                                                 scanned.path, frames, request.options, progress);
     if (!reader.status().ok()) return reader.status();
     if (!finished.ok()) return Status::Error(path + ": " + finished.message());
     if (reader.posed() == 0)

@@ -70,6 +70,17 @@ TEST_F(Transforms, EveryPixelIsWhereTheFileSaysInColourAndDepth) {
     }
 }
 
+// The points and the poses belong to the corrected depth.
+TEST_F(Transforms, DepthIsCorrectedAsTheMeshWas) {
+    WritePosedScan(scan);
+    ASSERT_TRUE(WriteTransforms(scan, PointsOfTheRoom(100), folder / "set/t.json", 0.05).ok());
+    const auto depth = ReadDepthImage(folder / "set/depth/000001.png");
+    ASSERT_TRUE(depth.ok()) << depth.message();
+    const double z_m = PosedCamera(1).inverse().linear().row(2) *
+                       (SeenAt(1, 80, 60) - PosedCamera(1).translation());
+    EXPECT_NEAR(0.001 * depth.value()(80, 60), z_m / (1 + 0.05 * z_m), 0.00061);
+}
+
 TEST_F(Transforms, PointsLieInTheFilesWorldAndAppliedTransformLeadsBack) {
     ASSERT_NO_FATAL_FAILURE(Write());
     const auto points = ReadPly(folder / "set/" + json["ply_file_path"].get<std::string>());

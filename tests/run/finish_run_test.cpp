@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <span>
 
+#include "io/image_io.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "render/mesh_picture.h"
@@ -70,9 +75,9 @@ class FinishedDesk : public testing::Test {
         }
         return left_out;
     }
-    RunSummary Run(const std::string& scan) {
+    RunSummary Run(const std::string& scan, const std::string& source = "synthetic:desk") {
         RunRequest request;
-        request.source = "synthetic:desk";
+        request.source = source;
         request.output_folder = folder / "run";
         request.selection.stride = 2;
         request.scan_file = scan;
@@ -83,6 +88,22 @@ class FinishedDesk : public testing::Test {
     }
     Result<FinishedModel> Finish(const std::string& input) {
         return FinishRun({.input = input}, [](const char*, double) { return true; });
+    }
+
+    // The desk as a sensor records it whose depth z is to be corrected to z / (1 + offset z).
+    void WriteFarRecording(const std::string& to, double offset_per_m) {
+        const auto source = OpenSynthetic("synthetic:desk", config.synthetic);
+        ASSERT_TRUE(source.ok()) << source.message();
+        ASSERT_TRUE(WriteSequence(*source.value(), to, {}).ok());
+        for (const auto& file : std::filesystem::directory_iterator(to + "/depth")) {
+            auto depth = ReadDepthImage(file.path().string());
+            ASSERT_TRUE(depth.ok()) << depth.message();
+            for (std::uint16_t& stored : std::span(depth.value().data(), depth.value().size())) {
+                const double z_m = stored / 5000.0, raw_m = z_m / (1 - offset_per_m * z_m);
+                stored = static_cast<std::uint16_t>(std::min(5000 * raw_m + 0.5, 65535.0));
+            }
+            ASSERT_TRUE(WriteDepthImage(file.path().string(), depth.value()).ok());
+        }
     }
 
     TempFolder folder;
@@ -144,6 +165,37 @@ TEST_F(FinishedDesk, AScanIsFinishedByItsOwnFrames) {
     ASSERT_TRUE(run.ok());
     EXPECT_EQ(run.value().depth_readout_s, 0.001);
     EXPECT_EQ(run.value().colour_readout_s, 0.002);
+}
+
+// Uncorrected, the frames would look through the whole surface, by 5 cm at a metre.
+TEST_F(FinishedDesk, DepthIsCorrectedAsTheRunCorrectedIt) {
+    constexpr double kOffset_per_m = 0.05;
+    config.synthetic.frames = 40;
+    config.scan.frames = ScanConfig::Frames::kAll;
+    config.check_camera = false;
+    config.pipeline.frame.disparity_offset_per_m = kOffset_per_m;
+    ASSERT_NO_FATAL_FAILURE(WriteFarRecording(folder / "far", kOffset_per_m));
+    Run(folder / "desk.scan", folder / "far");
+    const auto of_scan = Finish(folder / "desk.scan"), of_run = Finish(folder / "run");
+    ASSERT_TRUE(of_scan.ok() && of_run.ok()) << of_scan.message() << of_run.message();
+    for (const FinishReport& report : {of_scan.value().report, of_run.value().report}) {
+        EXPECT_GT(report.model().seen_share, 0.8);
+        EXPECT_LT(report.flaps.triangles, report.triangles_before / 4);
+    }
+    // As if calibration.refine had found what was set, and the camera's focal lengths.
+    std::ifstream old_file(folder / "run/run.json");
+    nlohmann::json json = nlohmann::json::parse(old_file);
+    ASSERT_EQ(json["configuration"]["frame.disparity_offset_per_m"], kOffset_per_m);
+    json["configuration"]["frame.disparity_offset_per_m"] = 0;
+    json["calibration"] = {
+        {"used", true}, {"fx", 262.5}, {"fy", 262.5}, {"disparity_offset_per_m", kOffset_per_m}};
+    json["source"]["camera"]["fx"] = json["source"]["camera"]["fy"] = 230;
+    std::ofstream(folder / "run/run.json") << json;
+    const auto refined = Finish(folder / "run");
+    ASSERT_TRUE(refined.ok()) << refined.message();
+    EXPECT_EQ(refined.value().report.flaps.triangles, of_run.value().report.flaps.triangles);
+    EXPECT_NEAR(refined.value().report.model().seen_share, of_run.value().report.model().seen_share,
+                1e-9);
 }
 
 TEST_F(FinishedDesk, WhatIsMissingIsNamed) {
