@@ -59,6 +59,10 @@ Status CheckRobotMaps(const RobotMaps& maps) {
     if (Status s = CheckExtension("--distance", maps.distance, ".npy", "a distance field"); !s.ok())
         return s;
     if (Status s = CheckNamesDiffer(maps); !s.ok()) return s;
+    if (!(maps.heights.low_m >= 0))
+        return Status::Error(fmt::format(
+            "--heights {:g} {:g}: the first is a height above the floor and must not be negative",
+            maps.heights.low_m, maps.heights.high_m));
     if (!(maps.heights.low_m < maps.heights.high_m))
         return Status::Error(fmt::format("--heights {:g} {:g}: the second must be above the first",
                                          maps.heights.low_m, maps.heights.high_m));

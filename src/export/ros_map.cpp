@@ -11,13 +11,17 @@ namespace tessera {
 namespace {
 
 std::uint8_t ColumnOf(const Occupancy& occupancy, const RosMap::Options& options, int x, int y) {
+    constexpr double kSlack_m = 1e-6;  // sides of cells are rounded
+    const double half_m = occupancy.grid.resolution_m / 2;
     bool is_free = false;
     for (int z = 0; z < occupancy.grid.size.z(); ++z) {
         const double height_m = occupancy.grid.Centre(x, y, z).z();
         const CellState state = occupancy.At(x, y, z);
-        if (height_m < -options.low_m || height_m >= options.high_m || state == CellState::kUnknown)
+        if (height_m + half_m <= kSlack_m - options.low_m || height_m >= options.high_m ||
+            state == CellState::kUnknown)
             continue;
-        if (height_m >= options.low_m && state == CellState::kOccupied) return RosMap::kOccupied;
+        const bool above_floor = height_m - half_m >= options.low_m - kSlack_m;
+        if (above_floor && state == CellState::kOccupied) return RosMap::kOccupied;
         is_free = true;
     }
     return is_free ? RosMap::kFree : RosMap::kUnknown;
@@ -26,8 +30,8 @@ std::uint8_t ColumnOf(const Occupancy& occupancy, const RosMap::Options& options
 }  // namespace
 
 RosMap MakeRosMap(const Occupancy& occupancy, const RosMap::Options& options) {
-    TESSERA_CHECK(options.low_m < options.high_m, "heights {} to {}", options.low_m,
-                  options.high_m);
+    TESSERA_CHECK(options.low_m >= 0 && options.low_m < options.high_m, "heights {} to {}",
+                  options.low_m, options.high_m);
     const CellGrid& grid = occupancy.grid;
     RosMap map{Image<std::uint8_t>(grid.size.x(), grid.size.y()), grid.resolution_m, grid.Low().x(),
                grid.Low().y()};

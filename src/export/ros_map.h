@@ -12,8 +12,8 @@ namespace tessera {
 
 struct RosMap {
     struct Options {
-        // Heights above the floor, metres, between which obstacles count. Carpets and thresholds
-        // lie below, lamps and lintels above.
+        // Heights above the floor, metres, between which obstacles count; from 0 on. Carpets and
+        // thresholds lie below, lamps and lintels above.
         double low_m = 0.1, high_m = 1.8;
     };
     // The values of pixels.
@@ -24,10 +24,11 @@ struct RosMap {
     double origin_x_m = 0, origin_y_m = 0;  // the lower left corner of the lower left pixel
 };
 
-// The columns of an occupancy whose grid frame has z up and the floor at z = 0. Cells count by the
-// height of their centres. A column is occupied if a cell between the heights is; else free if one
-// is free or the floor (anything down to as far below it as `low_m` is above) was seen; else
-// unknown. Requires low_m < high_m. Thread-safe.
+// The columns of an occupancy whose grid frame has z up and the floor at z = 0. A column is
+// occupied if a cell is that begins at `low_m` or above and whose centre is below `high_m`; else
+// free if one of these is free or the floor was seen, which is any cell below them that reaches
+// above -`low_m`; else unknown. So the floor's own cells are no obstacle, however large they are.
+// Requires 0 <= low_m < high_m. Thread-safe.
 RosMap MakeRosMap(const Occupancy& occupancy, const RosMap::Options& options);
 
 // Writes NAME.pgm (binary, 8 bits) beside `yaml_path` (NAME.yaml), which is written last. Errors:

@@ -111,6 +111,8 @@ TEST_F(RobotMapFiles, ErrorsNameTheOption) {
     expect([](RobotMaps& m) { m.distance = "a.npz"; }, "--distance a.npz: ");
     expect([](RobotMaps& m) { m.resolution_m = 0; }, "--resolution: a resolution of 0 m");
     expect([](RobotMaps& m) { m.heights.high_m = 0.1; }, "--heights 0.1 0.1: ");
+    expect([](RobotMaps& m) { m.heights.low_m = -0.1; },
+           "--heights -0.1 1.8: the first is a height above the floor and must not be negative");
     expect([&](RobotMaps& m) { m.box_m = Eigen::AlignedBox3d(0 * one, 1e4 * one); },
            "--box, --resolution: 200000 x 200000 x 200000 cells");
     RobotMaps maps;

@@ -74,9 +74,28 @@ TEST_F(RosMaps, TheFloorAloneIsFreeAndTheCeilingAloneIsUnknown) {
     EXPECT_EQ(Pixel(1, 0), RosMap::kUnknown);
     EXPECT_EQ(Pixel(2, 0), RosMap::kUnknown);
     EXPECT_EQ(Pixel(3, 0), RosMap::kFree);
+    // The cell begins below 0.1 m, as that of a bare floor does.
     heights.low_m = 0.1;
+    EXPECT_EQ(Pixel(0, 0), RosMap::kFree);
+    EXPECT_EQ(Pixel(3, 0), RosMap::kFree);
+    heights.low_m = 0;
     EXPECT_EQ(Pixel(0, 0), RosMap::kUnknown);  // too far below to be the floor
     EXPECT_EQ(Pixel(3, 0), RosMap::kOccupied);
+}
+
+// At 0.05 m the obstacles begin with the third cell above the floor, which begins at 0.1 m.
+TEST_F(RosMaps, CellsCountFromTheirLowerSide) {
+    const Eigen::AlignedBox3d box(Eigen::Vector3d(0, 0, -0.25), Eigen::Vector3d(0.05, 0.05, 2));
+    const CellGrid grid = MakeGrid(box, 0.05, Eigen::Isometry3d::Identity()).value();
+    for (int z = 0; z < grid.size.z(); ++z) {
+        occupancy = {grid, std::vector<CellState>(grid.cells(), CellState::kUnknown)};
+        occupancy.cells[grid.Index(0, 0, z)] = CellState::kOccupied;
+        const int above = z - 5;  // the floor
+        const int expected = above < -2 || above >= 36 ? RosMap::kUnknown
+                             : above < 2               ? RosMap::kFree
+                                                       : RosMap::kOccupied;
+        EXPECT_EQ(Pixel(0, 0), expected) << above;
+    }
 }
 
 TEST_F(RosMaps, TheFilesAreAsMapServerReadsThem) {
