@@ -7,36 +7,13 @@
 #include <numbers>
 #include <optional>
 
+#include "core/mean_up.h"
+
 namespace tessera {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kFewest = 2000;  // vertices of a surface; 0.2 square metres at 1 cm voxels
-
-// Up, roughly, from how the cameras were held on average: upright, unless their x axis keeps its
-// direction much better; then they were held sideways. Empty if they were turned in every
-// direction.
-std::optional<Eigen::Vector3d> MeanUp(const std::vector<StampedPose>& path,
-                                      const TriangleMesh& mesh) {
-    constexpr double kLeast = 0.3, kMuchBetter = 1.5;
-    Eigen::Vector3d up = Eigen::Vector3d::Zero(), left = Eigen::Vector3d::Zero();
-    for (const StampedPose& pose : path) {
-        left -= pose.T_world_camera.linear().col(0) / static_cast<double>(path.size());
-        up -= pose.T_world_camera.linear().col(1) / static_cast<double>(path.size());
-    }
-    const bool sideways = left.norm() > kMuchBetter * up.norm();
-    if (sideways) up = left;
-    if (up.norm() < kLeast) return std::nullopt;
-    up.normalize();
-    if (!sideways) return up;
-    // To the left or to the right: more surface is seen from above than from below.
-    double facing_up = 0;
-    for (const Eigen::Vector3f& normal : mesh.normals) {
-        const double along = normal.cast<double>().dot(up);
-        if (std::abs(along) > std::cos(40 * kDegree)) facing_up += along;
-    }
-    return facing_up < 0 ? Eigen::Vector3d(-up) : up;
-}
 
 // The direction, within 40 degrees of `about`, to which most normals point, or from which.
 Eigen::Vector3d MostNormals(const TriangleMesh& mesh, const Eigen::Vector3d& about) {
@@ -146,26 +123,30 @@ Result<Level> FindLevel(const TriangleMesh& mesh, const std::vector<StampedPose>
     if (plane.points < kFewest)
         return Status::Error("no horizontal surface was found, neither a floor nor a table");
     const std::map<int, std::size_t> facing_up = Layers(mesh, plane.normal, false);
-    double floor_m = plane.height_m;
+    Plane under = plane;
     if (const auto most = std::ranges::max_element(facing_up, {}, size); most != facing_up.end()) {
         const auto floor = std::ranges::find_if(facing_up, [&](const auto& layer) {
             return static_cast<double>(layer.second) >=
                    kFloorShare * static_cast<double>(most->second);
         });
-        floor_m = Fit(mesh, {plane.normal, HeightOf(floor->first), 0, 0}).height_m;
+        under = Fit(mesh, {plane.normal, HeightOf(floor->first), 0, 0});
     }
     const Eigen::Isometry3d& first = path.front().T_world_camera;
     const Eigen::Vector3d z = plane.normal;
-    // A camera that looks straight down or up has no heading: then its up (or down) is taken.
+    // A camera that looks straight down or up has no heading: then that of its up (or down) is
+    // taken, which was ahead before the camera was turned down (or up).
     Eigen::Vector3d ahead = first.linear().col(2);
-    if (std::abs(ahead.dot(z)) > std::cos(10 * kDegree)) ahead = -first.linear().col(1);
+    if (std::abs(ahead.dot(z)) > std::cos(10 * kDegree))
+        ahead = (ahead.dot(z) > 0 ? 1 : -1) * first.linear().col(1);
     const Eigen::Vector3d y = (ahead - ahead.dot(z) * z).normalized();
     Level level;
     Eigen::Matrix3d R_level_world;
     R_level_world << y.cross(z).transpose(), y.transpose(), z.transpose();
     level.T_level_world.linear() = R_level_world;
+    // Down to the floor, whose normal is not quite z.
     const Eigen::Vector3d eye = first.translation();
-    level.T_level_world.translation() = -(R_level_world * (eye - (eye.dot(z) - floor_m) * z));
+    const double down_m = (eye.dot(under.normal) - under.height_m) / z.dot(under.normal);
+    level.T_level_world.translation() = -(R_level_world * (eye - down_m * z));
     level.tilt_rad = std::acos(std::clamp(-first.linear().col(1).dot(z), -1.0, 1.0));
     level.points = plane.points;
     level.roughness_m = plane.rms_m;

@@ -3,13 +3,19 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <optional>
+
+#include "core/mean_up.h"
 
 namespace tessera {
 
 Eigen::Vector3d EstimateUp(const TriangleMesh& mesh, const std::vector<StampedPose>& path) {
     constexpr double kLeastShare = 0.03;  // of the mesh's area
     Eigen::Vector3d up = Eigen::Vector3d::Zero();
-    for (const StampedPose& pose : path) up -= pose.T_world_camera.linear().col(1);
+    if (const std::optional<Eigen::Vector3d> mean = MeanUp(path, mesh))
+        up = *mean;
+    else
+        for (const StampedPose& pose : path) up -= pose.T_world_camera.linear().col(1);
     if (up.norm() < 1e-9) up = -Eigen::Vector3d::UnitY();
     up.normalize();
     // Narrower in each turn: the first mean is off by as much as the camera looks down.

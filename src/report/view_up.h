@@ -9,8 +9,9 @@
 
 namespace tessera {
 
-// Unit vector. The mean of the cameras' upper sides, then the direction of the floors and tables
-// near it, if the mesh shows enough of them. Without poses: the mesh's -y. Thread-safe.
+// Unit vector. MeanUp, or the mean of the cameras' upper sides where it is empty; then the
+// direction of the floors and tables near it, if the mesh shows enough of them. Without poses: the
+// mesh's -y. Thread-safe.
 Eigen::Vector3d EstimateUp(const TriangleMesh& mesh, const std::vector<StampedPose>& path);
 
 }  // namespace tessera

@@ -112,6 +112,40 @@ TEST(Level, FindsUpHoweverTheCameraWasHeld) {
     }
 }
 
+// The ceiling is the largest surface and gives the vertical; it is not parallel to the floor. The
+// world begins far from the room.
+TEST(Level, TheFloorUnderTheFirstCameraIsAtZero) {
+    constexpr double kTilt = 0.5 * std::numbers::pi / 180, kFar_m = 20;
+    std::mt19937 random(7);
+    TriangleMesh mesh;
+    AddRectangle({kFar_m + 0.5, 0, 0}, {2.5, 0, 0}, {0, 2, 0}, random, mesh);
+    AddRectangle({kFar_m, 0, 2.5}, {0, 3, 0}, {4 * std::cos(kTilt), 0, 4 * std::sin(kTilt)}, random,
+                 mesh);
+    std::vector<StampedPose> path = Walk();
+    for (StampedPose& pose : path) pose.T_world_camera.pretranslate(Eigen::Vector3d(kFar_m, 0, 0));
+    const Result<Level> level = FindLevel(mesh, path);
+    ASSERT_TRUE(level.ok()) << level.message();
+    const Eigen::Vector3d z = level.value().T_level_world.linear().row(2);
+    EXPECT_NEAR(z.x(), -std::sin(kTilt), 0.001);
+    MakeLevel(level.value(), mesh, path);
+    EXPECT_NEAR(path.front().T_world_camera.translation().z(), 1.4, 0.003);
+}
+
+// Its image's lower edge is ahead where it looks straight up, the upper one where straight down.
+TEST(Level, ACameraThatLooksStraightUpOrDownHasAHeading) {
+    for (const bool up : {true, false}) {
+        TriangleMesh mesh = LevelRoom(true);
+        std::vector<StampedPose> path = Walk();
+        Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  // y, down in the image, is ahead
+        if (!up) R.diagonal() << 1, -1, -1;
+        path.front().T_world_camera.linear() = R;
+        const Result<Level> level = FindLevel(mesh, path);
+        ASSERT_TRUE(level.ok()) << level.message();
+        MakeLevel(level.value(), mesh, path);
+        EXPECT_LT((path.front().T_world_camera.linear() - R).norm(), 0.01) << up;
+    }
+}
+
 TEST(Level, WhereThereIsNoFloorItIsAnError) {
     TriangleMesh mesh = LevelRoom(false);
     std::vector<StampedPose> path = Walk();

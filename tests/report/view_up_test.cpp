@@ -25,6 +25,19 @@ TEST(EstimateUp, FindsTheFloorUnderACameraThatLooksDown) {
     EXPECT_GT(EstimateUp(floor, path).z(), 0.999);
 }
 
+// A phone is held sideways, to the left or to the right.
+TEST(EstimateUp, KnowsCamerasThatWereHeldSideways) {
+    TriangleMesh floor = BumpySheet(20, true);
+    for (Eigen::Vector3f& p : floor.vertices) p.z() *= 0.02f;
+    for (const double roll_rad : {1.5708, -1.5708}) {
+        std::vector<StampedPose> path{Looking({1, 0, -0.4}), Looking({0, 1, -0.4}),
+                                      Looking({-1, 0, -0.4}), Looking({0, -1, -0.4})};
+        for (StampedPose& pose : path)
+            pose.T_world_camera.rotate(Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()));
+        EXPECT_GT(EstimateUp(floor, path).z(), 0.999) << roll_rad;
+    }
+}
+
 TEST(EstimateUp, WithoutAFloorFollowsTheCameras) {
     const std::vector<StampedPose> path{Looking({1, 0, 0}), Looking({0, 1, 0})};
     EXPECT_GT(EstimateUp({}, path).z(), 0.999);
