@@ -83,6 +83,10 @@ Status Finish(const FinishArguments& a) {
     if (folder && !folder->ok()) return *folder;
     if (!finished.ok()) return finished.status();
     Print(finished.value().report);
+    if (const auto made = std::ssize(finished.value().lower_levels);
+        made < request.options.lower_levels)
+        fmt::print("{} of {} lower levels: the next would have fewer than 4 triangles\n", made,
+                   request.options.lower_levels);
     if (Status status = WriteFinishedModel(a.out, finished.value(), a.request.level); !status.ok())
         return status;
     return WriteShell(a, finished.value());
@@ -132,7 +136,7 @@ void AddFinishCommand(CLI::App& app, CommandContext& context) {
     command
         ->add_option("--levels", a->request.options.lower_levels,
                      "Lower levels of detail, model_lod1.glb ...: each a quarter of the triangles")
-        ->check(CLI::Range(0, 6))
+        ->check(CLI::Range(0, kMostLowerLevels))
         ->capture_default_str();
     command
         ->add_option("--watertight", a->watertight_m,

@@ -1,5 +1,12 @@
 #include "finished_model.h"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
 #include "export/level.h"
 #include "io/file.h"
 #include "io/image_io.h"
@@ -29,6 +36,14 @@ Status WriteFinishedModel(const std::string& out, const FinishedModel& finished,
                                          upright(finished.lower_levels[i]));
         if (!status.ok()) return status;
     }
+    // What another model left here.
+    std::vector<std::string> others{out + "/watertight.obj"};
+    for (std::size_t i = finished.lower_levels.size() + 1; i <= kMostLowerLevels; ++i)
+        others.push_back(fmt::format("{}/model_lod{}.glb", out, i));
+    for (const std::string& other : others)
+        if (std::error_code error; !std::filesystem::remove(other, error) && error)
+            return Status::Error(fmt::format("{}: is of another model and cannot be removed: {}",
+                                             other, error.message()));
     return Status::Ok();
 }
 

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <numeric>
 
 namespace tessera {
 namespace {
 
+constexpr double kWidest_m = 1;       // of a texel; none is so wide
 constexpr double kLargest = 1 << 20;  // texels; fits into no texture
 
 Eigen::Vector2i BoxOf(const Chart& chart, double texel_m) {
@@ -40,9 +43,17 @@ std::int64_t PackRows(const std::vector<Eigen::Vector2i>& boxes,
 }  // namespace
 
 Result<Atlas> PackCharts(const std::vector<Chart>& charts, double texel_m, int max_side) {
+    const Status too_many = Status::Error(fmt::format(
+        "the surface is in too many pieces for a texture of {} x {}: {} charts; take a larger "
+        "--texture, a larger --island, which removes small pieces, or a part of it by --box",
+        max_side, max_side, charts.size()));
+    // With the largest texels.
+    std::int64_t least = 0;
+    for (const Chart& chart : charts) least += BoxOf(chart, kWidest_m).cast<std::int64_t>().prod();
+    if (least > std::int64_t{max_side} * max_side) return too_many;
     Atlas atlas;
     atlas.corner.resize(charts.size());
-    for (atlas.texel_m = texel_m; atlas.texel_m < 1; atlas.texel_m *= 1.05) {
+    for (atlas.texel_m = texel_m; atlas.texel_m < kWidest_m; atlas.texel_m *= 1.05) {
         std::vector<Eigen::Vector2i> boxes;
         int widest = 1;
         for (const Chart& chart : charts) {
@@ -62,9 +73,7 @@ Result<Atlas> PackCharts(const std::vector<Chart>& charts, double texel_m, int m
             return atlas;
         }
     }
-    return Status::Error(
-        fmt::format("the surface is in too many pieces for a texture of {} x {}: {} charts",
-                    max_side, max_side, charts.size()));
+    return too_many;
 }
 
 }  // namespace tessera

@@ -11,6 +11,7 @@
 namespace tessera {
 namespace {
 
+constexpr std::size_t kFewestTriangles = 4;  // of a lower level
 constexpr double kSampled = 0.05, kCleaned = 0.1, kSimplified = 0.15, kLaidOut = 0.2;  // shares
 
 class Finisher {
@@ -82,10 +83,12 @@ class Finisher {
             if (!level.ok()) return level.status();
             levels_.push_back(std::move(level.value()));
             if (i == options_.lower_levels) return Status::Ok();
+            // Texels may be wider than asked for, so that they fit the texture.
+            options.texel_m = 2 * report.texel_m;
             LevelReport lower;
             lower.error_m = report.error_m + DecimateTo(mesh, 0.25);
+            if (mesh.triangles.size() < kFewestTriangles) return Status::Ok();
             finished_.report.levels.push_back(lower);
-            options.texel_m *= 2;
         }
     }
 

@@ -14,8 +14,9 @@ namespace tessera {
 struct FinishOptions {
     CleanOptions clean;
     LevelOptions texture;
-    int lower_levels =
-        0;  // of detail: each has a quarter of the triangles, and texels twice as wide
+    // Of detail, at most: each has a quarter of the triangles, and texels twice as wide. They end
+    // before one with fewer than four triangles.
+    int lower_levels = 0;
 };
 
 struct FinishedModel {

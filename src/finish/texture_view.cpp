@@ -64,6 +64,25 @@ inline std::optional<Vector2f> PixelOf(const TextureView& view, const Vector3f& 
     return at;
 }
 
+// Per channel, the colours of every step-th vertex over those that the view shows of them.
+std::array<std::vector<float>, 3> RatiosOf(const TriangleMesh& mesh, std::size_t step,
+                                           const TextureView& view) {
+    std::array<std::vector<float>, 3> ratios;
+    for (std::size_t i = 0; i < mesh.vertices.size(); i += step) {
+        const SeenColour seen = See(view, mesh.vertices[i], mesh.normals[i]);
+        const Array3f model = ToArray(mesh.colours[i]);
+        // What is dark or saturated says nothing about the gain.
+        if (seen.weight <= 0 || seen.rgb.minCoeff() < 20 || seen.rgb.maxCoeff() > 245 ||
+            model.minCoeff() < 20 || model.maxCoeff() > 245)
+            continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto k = static_cast<Eigen::Index>(c);
+            ratios[c].push_back(model[k] / seen.rgb[k]);
+        }
+    }
+    return ratios;
+}
+
 }  // namespace
 
 TextureView MakeTextureView(const PinholeCamera& camera, const Frame& frame,
@@ -128,21 +147,14 @@ SeenColour See(const TextureView& view, const Vector3f& p_world, const Vector3f&
 
 void EstimateGain(const TriangleMesh& mesh, TextureView& view) {
     constexpr std::size_t kSamples = 20000, kLeast = 100;
-    std::array<std::vector<float>, 3> ratios;
-    const std::size_t step = mesh.vertices.size() / kSamples + 1;
-    for (std::size_t i = 0; i < mesh.vertices.size(); i += step) {
-        const SeenColour seen = See(view, mesh.vertices[i], mesh.normals[i]);
-        const Array3f model = ToArray(mesh.colours[i]);
-        // What is dark or saturated says nothing about the gain.
-        if (seen.weight <= 0 || seen.rgb.minCoeff() < 20 || seen.rgb.maxCoeff() > 245 ||
-            model.minCoeff() < 20 || model.maxCoeff() > 245)
-            continue;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto k = static_cast<Eigen::Index>(c);
-            ratios[c].push_back(model[k] / seen.rgb[k]);
-        }
-    }
     view.gain.setOnes();
+    std::size_t step = mesh.vertices.size() / kSamples + 1;
+    std::array<std::vector<float>, 3> ratios = RatiosOf(mesh, step, view);
+    // A view of a small part of a large mesh shows few of them.
+    while (ratios[0].size() < kLeast && step > 1) {
+        step = std::max<std::size_t>(step / 4, 1);
+        ratios = RatiosOf(mesh, step, view);
+    }
     if (ratios[0].size() < kLeast) return;
     for (std::size_t c = 0; c < 3; ++c) view.gain[static_cast<Eigen::Index>(c)] = Median(ratios[c]);
 }

@@ -1,4 +1,6 @@
 // Tests the command `tessera export`. The tests of each writer check the content of its format.
+#include <Eigen/Geometry>
+
 #include "apps/cli_fixture.h"
 #include "io/mesh_io.h"
 
@@ -68,6 +70,23 @@ TEST_F(Export, CropsToABox) {
     ExpectRefused(
         "finish " + (folder / "run") + " --out " + (folder / "f") + " --box 90 90 90 91 91 91",
         "nothing of the mesh is in the box");
+}
+
+TEST_F(Export, AFinishedModelLeavesNoFilesOfAnother) {
+    ASSERT_NO_FATAL_FAILURE(Scan(""));
+    const std::string finish = "finish " + (folder / "run") + " --out " + (folder / "f");
+    std::filesystem::create_directory(folder / "f");
+    for (const char* name : {"model_lod1.glb", "model_lod3.glb", "watertight.obj", "mine.txt"})
+        std::ofstream(folder / "f/" + name) << "old";
+    const Outcome first = Call(finish + " --watertight 0.01");
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "f/model_lod1.glb"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "f/model_lod3.glb"));
+    EXPECT_GT(std::filesystem::file_size(folder / "f/watertight.obj"), 100u);
+    const Outcome second = Call(finish);
+    ASSERT_EQ(second.exit_code, 0) << second.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "f/watertight.obj"));
+    EXPECT_EQ(ReadAll(folder / "f/mine.txt"), "old");
 }
 
 TEST_F(Export, AVolumeIsWrittenOrSaysWhatToInstall) {

@@ -60,6 +60,10 @@ TEST(Atlas, TooManyPiecesAreAnError) {
     const Result<Atlas> atlas = PackCharts(RandomCharts(3000, 0.01f), 0.001, 256);
     ASSERT_FALSE(atlas.ok());
     EXPECT_NE(atlas.message().find("3000 charts"), std::string::npos) << atlas.message();
+    for (const char* option : {"--texture", "--island", "--box"})
+        EXPECT_NE(atlas.message().find(option), std::string::npos) << atlas.message();
+    // A box has at least 6 x 6 texels: 42 x 42 of them fit.
+    EXPECT_TRUE(PackCharts(RandomCharts(42 * 42, 0.01f), 0.001, 256).ok());
 }
 
 TEST(Atlas, AChartsOriginIsAtItsCorner) {

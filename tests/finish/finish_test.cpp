@@ -149,6 +149,38 @@ TEST(Finish, HolesAreClosedFlapsGoAndLowerLevelsAreLighter) {
     EXPECT_TRUE(kept.filled.triangles.empty());
 }
 
+// The wall's 4 m take 400 texels of a centimetre; the texture has 256.
+TEST(Finish, ALowerLevelsTexelsAreTwiceAsWideAsThoseReached) {
+    FinishOptions options;
+    options.lower_levels = 1;
+    options.clean.decimation_share = 1;
+    options.texture = {.texel_m = 0.01, .texture_side = 256};
+    const auto finished =
+        FinishModel(Square({-2, -2, 0}, {1, 0, 0}, {0, 1, 0}, 4, 60), WallCamera(), Path(),
+                    Wanted(1), options, [](const char*, double) { return true; });
+    ASSERT_TRUE(finished.ok()) << finished.message();
+    const std::vector<LevelReport>& levels = finished.value().report.levels;
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_GT(levels[0].texel_m, 0.012);
+    EXPECT_DOUBLE_EQ(levels[1].texel_m, 2 * levels[0].texel_m);
+}
+
+// A quarter of eight triangles is no surface worth a file.
+TEST(Finish, LevelsEndWhereNothingIsLeft) {
+    FinishOptions options;
+    options.lower_levels = 6;
+    options.clean.decimation_share = 1;
+    options.clean.remove_flaps = false;
+    const auto finished =
+        FinishModel(Square({-0.2f, -0.2f, 0}, {1, 0, 0}, {0, 1, 0}, 0.4f, 2), WallCamera(), Path(),
+                    Wanted(1), options, [](const char*, double) { return true; });
+    ASSERT_TRUE(finished.ok()) << finished.message();
+    EXPECT_EQ(finished.value().model.mesh.triangles.size(), 8u);
+    const std::vector<TexturedMesh>& lower = finished.value().lower_levels;
+    EXPECT_EQ(finished.value().report.levels.size(), 1 + lower.size());
+    for (const TexturedMesh& level : lower) EXPECT_GE(level.mesh.triangles.size(), 4u);
+}
+
 TEST(Finish, CanBeCancelledAtEachStep) {
     for (int at = 0; at < 6; ++at) {
         int steps = 0;

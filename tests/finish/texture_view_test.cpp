@@ -12,6 +12,7 @@ namespace tessera {
 namespace {
 
 using Eigen::Vector3f;
+using testing_support::Append;
 using testing_support::Square;
 using testing_support::WallCamera;
 using testing_support::WallFrame;
@@ -161,6 +162,21 @@ TEST(TextureView, TheGainIsThatOfTheModelsColours) {
     elsewhere.gain.setConstant(3);
     EstimateGain(wall, elsewhere);
     EXPECT_TRUE((elsewhere.gain == 1).all());
+}
+
+// The wall is a 250th of the mesh: of 20000 vertices spread over it, the view shows about 80.
+TEST(TextureView, TheGainIsFoundInASmallPartOfALargeMesh) {
+    TriangleMesh mesh = Square({-0.5f, -0.4f, 0}, {1, 0, 0}, {0, 1, 0}, 0.9f, 40);
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const Eigen::Array3f paint = WallPaint(mesh.vertices[i].x(), mesh.vertices[i].y());
+        mesh.colours[i] = {static_cast<std::uint8_t>(paint[0]), static_cast<std::uint8_t>(paint[1]),
+                           static_cast<std::uint8_t>(paint[2])};
+    }
+    Append(mesh, Square({50, 50, 0}, {1, 0, 0}, {0, 1, 0}, 1, 640));
+    const Eigen::Array3f exposure(0.8f, 0.7f, 1.1f);
+    TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0, exposure), {});
+    EstimateGain(mesh, view);
+    EXPECT_LT((view.gain * exposure - 1).abs().maxCoeff(), 0.03f) << view.gain.transpose();
 }
 
 TEST(Sharpness, FallsWithBlur) {
