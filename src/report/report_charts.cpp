@@ -151,8 +151,9 @@ std::string ErrorSection(const ReportData& data) {
         TimeChart(data, "Absolute trajectory error over time", small ? "error, mm" : "error, cm");
     ChartSeries& curve = chart.series.emplace_back(ChartSeries{"error", "c1", {}});
     chart.y_high = std::max(1e-9, kChartHeadroom * ate.error_m.max / unit_m);
+    const double begin_s = TimeRangeOf(data).begin_s;
     for (const AteResult::Pair& pair : ate.pairs)
-        curve.points.emplace_back(pair.stamp_s - TimeRangeOf(data).begin_s, pair.error_m / unit_m);
+        curve.points.emplace_back(pair.stamp_s - begin_s, pair.error_m / unit_m);
     std::vector<TableRow> rows = table(ate.error_m.rmse, ate.error_m.mean, ate.error_m.median,
                                        ate.error_m.max, ate.pairs.size());
     if (data.rpe) {
@@ -188,9 +189,10 @@ std::string CorrectionSection(const ReportData& data) {
     if (corrections.empty()) return {};
     ChartSpec chart = TimeChart(data, "How far loop closure moved each pose", "moved, cm");
     ChartSeries& curve = chart.series.emplace_back(ChartSeries{"moved", "c2", {}});
+    const double begin_s = TimeRangeOf(data).begin_s;
     double sum_m = 0, max_m = 0;
     for (const Correction& c : corrections) {
-        curve.points.emplace_back(c.stamp_s - TimeRangeOf(data).begin_s, 100 * c.distance_m);
+        curve.points.emplace_back(c.stamp_s - begin_s, 100 * c.distance_m);
         sum_m += c.distance_m;
         max_m = std::max(max_m, c.distance_m);
     }

@@ -49,12 +49,12 @@ std::string TimesSection(const ReportData& data) {
         std::vector<double> whole;
         for (const FrameRow& row : data.frames->rows) whole.push_back(row.frame_ms);
         chart.y_high = kChartHeadroom * TopOf(whole);
+        const double begin_s = TimeRangeOf(data).begin_s;
         for (const StageColumn& column : kShownTimes) {
             ChartSeries& curve =
                 chart.series.emplace_back(ChartSeries{column.name, column.style, {}});
             for (const FrameRow& row : data.frames->rows)
-                curve.points.emplace_back(row.stamp_s - TimeRangeOf(data).begin_s,
-                                          row.*column.value);
+                curve.points.emplace_back(row.stamp_s - begin_s, row.*column.value);
         }
         body = ChartSvg(chart);
         const auto above = std::ranges::count_if(whole, [&](double t) { return t > chart.y_high; });
