@@ -110,6 +110,14 @@ Status Check(const ExportArguments& a, bool is_run) {
     return Status::Ok();
 }
 
+// Prints the notes.
+Status Tell(const Result<std::vector<std::string>>& notes) {
+    if (!notes.ok()) return notes.status();
+    for (const std::string& note : notes.value())
+        fmt::print(stderr, "tessera: note: {}\n", Printable(note));
+    return Status::Ok();
+}
+
 Status Write(const ExportArguments& a, const Content& content) {
     if (!a.mesh.empty())
         if (Status status = MeshFormatOf(a.mesh).value().write(
@@ -125,16 +133,12 @@ Status Write(const ExportArguments& a, const Content& content) {
     if (!a.kitti.empty())
         if (Status status = WriteKittiPoses(a.kitti, content.path); !status.ok()) return status;
     if (!a.colmap.empty())
-        if (Status status = WriteColmap(a.input, content.mesh, a.colmap); !status.ok())
+        if (Status status = Tell(WriteColmap(a.input, content.mesh, a.colmap)); !status.ok())
             return status;
     if (a.WantsTransforms())
-        return WriteTransforms(a.input, content.mesh, a.frames, content.disparity_offset_per_m);
-    if (a.frames.empty()) return Status::Ok();
-    const auto notes = ExportFrames(a.input, a.frames);
-    if (!notes.ok()) return notes.status();
-    for (const std::string& note : notes.value())
-        fmt::print(stderr, "tessera: note: {}\n", Printable(note));
-    return Status::Ok();
+        return Tell(
+            WriteTransforms(a.input, content.mesh, a.frames, content.disparity_offset_per_m));
+    return a.frames.empty() ? Status::Ok() : Tell(ExportFrames(a.input, a.frames));
 }
 
 Status Turn(const std::string& input, Content& content) {

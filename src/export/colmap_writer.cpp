@@ -42,8 +42,8 @@ std::string PointsText(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Status WriteColmap(const std::string& scan_path, const TriangleMesh& mesh,
-                   const std::string& folder) {
+Result<std::vector<std::string>> WriteColmap(const std::string& scan_path, const TriangleMesh& mesh,
+                                             const std::string& folder) {
     Result<std::unique_ptr<PosedFrames>> frames = PosedFrames::Open(scan_path);
     if (!frames.ok()) return frames.status();
     if (Status status = MakeImageFolder(folder + "/images"); !status.ok()) return status;
@@ -61,7 +61,8 @@ Status WriteColmap(const std::string& scan_path, const TriangleMesh& mesh,
             WriteTextFile(folder + "/cameras.txt", CamerasText(frames.value()->camera()));
         !status.ok())
         return status;
-    return WriteTextFile(folder + "/images.txt", images);
+    if (Status status = WriteTextFile(folder + "/images.txt", images); !status.ok()) return status;
+    return frames.value()->notes();
 }
 
 }  // namespace tessera

@@ -7,7 +7,9 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "core/image.h"
 #include "core/mesh.h"
 #include "core/status.h"
 #include "scan/scan_content.h"
@@ -19,6 +21,7 @@ struct PosedFrame {
     std::string name;  // its number on the scan's path, six digits
     Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
     std::shared_ptr<const EncodedImages> images;
+    const DepthImage& depth_m;  // decoded
 };
 
 // Owner thread only. Errors name the file. If the scan has no raw frames, or none with a pose and
@@ -31,13 +34,17 @@ class PosedFrames {
     // made.
     const PinholeCamera& camera() const { return scan_.meta.camera; }
     double depth_units_per_m() const { return scan_.meta.depth_units_per_m; }
-    // Visits the frames in path order, with one in memory at a time, and checks them. Stops early
-    // if `take` returns an error.
+    // Visits the frames in path order, with one in memory at a time. Frames that cannot be decoded
+    // are left out and counted. Stops early if `take` returns an error. An error if no frame is
+    // left.
     Status ForEach(const std::function<Status(const PosedFrame&)>& take);
+    // After ForEach: what the user should know of frames that were left out; usually nothing.
+    const std::vector<std::string>& notes() const { return notes_; }
 
   private:
     std::unique_ptr<ScanFile> file_;
     ScanContent scan_;  // without map and frames
+    std::vector<std::string> notes_;
 };
 
 // Creates the folder. Refuses a folder that contains anything, so that no images are overwritten.

@@ -45,27 +45,21 @@ Json Head(const PinholeCamera& camera) {
 // Writes depth images in the units and encoding that other programs expect.
 class DepthFiles {
   public:
-    DepthFiles(const PinholeCamera& camera, double units_per_m, double disparity_offset_per_m)
-        : camera_(camera),
-          decoder_(0, units_per_m),
-          disparity_offset_per_m_(static_cast<float>(disparity_offset_per_m)) {}
+    explicit DepthFiles(double disparity_offset_per_m)
+        : disparity_offset_per_m_(static_cast<float>(disparity_offset_per_m)) {}
 
-    Status Write(const EncodedImages& images, const std::string& path) {
-        if (Status status = decoder_.Decode(images, frame_); !status.ok()) return status;
-        if (frame_.depth_m.width() != camera_.width || frame_.depth_m.height() != camera_.height)
-            return Status::Error("does not have the camera's size");
-        for (float& z_m : std::span(frame_.depth_m.data(), frame_.depth_m.size()))
+    Status Write(const DepthImage& depth_m, const std::string& path) {
+        corrected_m_ = depth_m;
+        for (float& z_m : std::span(corrected_m_.data(), corrected_m_.size()))
             z_m = CorrectedDepth(z_m, disparity_offset_per_m_);
-        StoreDepth(frame_.depth_m, kDepthUnitsPerMetre, depth_mm_);
+        StoreDepth(corrected_m_, kDepthUnitsPerMetre, depth_mm_);
         encoder_.EncodeDepth(depth_mm_, file_);
         return WriteImageFile(path, file_);
     }
 
   private:
-    const PinholeCamera camera_;
-    FrameStore decoder_;  // used for decoding only
     const float disparity_offset_per_m_;
-    Frame frame_;
+    DepthImage corrected_m_;
     Image<std::uint16_t> depth_mm_;
     PngEncoder encoder_;
     std::vector<std::uint8_t> file_;
@@ -80,7 +74,7 @@ Status WritePoints(const TriangleMesh& mesh, const std::string& path) {
 
 Status WriteFrames(PosedFrames& frames, const std::string& folder, double disparity_offset_per_m,
                    Json& list) {
-    DepthFiles depth(frames.camera(), frames.depth_units_per_m(), disparity_offset_per_m);
+    DepthFiles depth(disparity_offset_per_m);
     const Eigen::Isometry3d T_opencv_opengl(
         Eigen::DiagonalMatrix<double, 3>(1, -1, -1).toDenseMatrix());
     return frames.ForEach([&](const PosedFrame& frame) {
@@ -89,8 +83,8 @@ Status WriteFrames(PosedFrames& frames, const std::string& folder, double dispar
         if (Status status = WriteImageFile(folder + colour_name, frame.images->colour_jpeg);
             !status.ok())
             return status;
-        if (Status status = depth.Write(*frame.images, folder + depth_name); !status.ok())
-            return Status::Error("frame " + frame.name + ": " + status.message());
+        if (Status status = depth.Write(frame.depth_m, folder + depth_name); !status.ok())
+            return status;
         const Eigen::Isometry3d T = ZUpFromWorld() * frame.T_world_camera * T_opencv_opengl;
         list.push_back({{"file_path", colour_name},
                         {"depth_file_path", depth_name},
@@ -107,8 +101,10 @@ Eigen::Isometry3d ZUpFromWorld() {
     return T;
 }
 
-Status WriteTransforms(const std::string& scan_path, const TriangleMesh& mesh,
-                       const std::string& json_path, double disparity_offset_per_m) {
+Result<std::vector<std::string>> WriteTransforms(const std::string& scan_path,
+                                                 const TriangleMesh& mesh,
+                                                 const std::string& json_path,
+                                                 double disparity_offset_per_m) {
     Result<std::unique_ptr<PosedFrames>> frames = PosedFrames::Open(scan_path);
     if (!frames.ok()) return frames.status();
     const std::string parent = std::filesystem::path(json_path).parent_path();
@@ -122,7 +118,8 @@ Status WriteTransforms(const std::string& scan_path, const TriangleMesh& mesh,
         return status;
     json["frames"] = std::move(list);
     if (Status status = WritePoints(mesh, folder + "points.ply"); !status.ok()) return status;
-    return WriteTextFile(json_path, json.dump(1) + "\n");
+    if (Status status = WriteTextFile(json_path, json.dump(1) + "\n"); !status.ok()) return status;
+    return frames.value()->notes();
 }
 
 }  // namespace tessera

@@ -27,7 +27,7 @@ Eigen::Vector3d ToCamera(double w, const Eigen::Vector3d& q, const Eigen::Vector
 TEST(Colmap, EveryPixelIsWhereTheFilesSay) {
     const TempFolder folder;
     WritePosedScan(folder / "a.scan");
-    const Status status = WriteColmap(folder / "a.scan", PointsOfTheRoom(3000), folder / "set");
+    const auto status = WriteColmap(folder / "a.scan", PointsOfTheRoom(3000), folder / "set");
     ASSERT_TRUE(status.ok()) << status.message();
     const std::vector<std::string> cameras = Lines(folder / "set/cameras.txt"),
                                    images = Lines(folder / "set/images.txt");

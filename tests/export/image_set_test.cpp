@@ -31,6 +31,53 @@ TEST(PosedFrames, AreThoseWithAPoseInOrder) {
     EXPECT_EQ(stopped.message(), "no 000000");
 }
 
+TEST(PosedFrames, DamagedOnesAreLeftOutAndCounted) {
+    const TempFolder folder;
+    const std::string scan = folder / "a.scan";
+    WritePosedScan(scan);
+    const auto damage = [&](const std::vector<std::int64_t>& numbers) {
+        auto file = ScanFile::OpenToWrite(scan);
+        ASSERT_TRUE(file.ok() && file.value()->Begin().ok());
+        for (const std::int64_t i : numbers) {
+            FrameRecord record;
+            const Result<Bytes> was = file.value()->ReadOne(ScanTable::kFrames, i);
+            ASSERT_TRUE(was.ok() && record.Decode(was.value()));
+            EncodedImages images = *record.stored.images.Read().value();
+            images.depth_png.assign(40, 7);
+            record.stored.images = StoredImages(images);
+            // The last one is not even a frame.
+            const Bytes bytes = i == 4 ? Bytes(9, 1) : record.Encode().value();
+            ASSERT_TRUE(file.value()->Put(ScanTable::kFrames, i, bytes).ok());
+        }
+        ASSERT_TRUE(file.value()->Commit(true).ok());
+        file.value()->Close();
+    };
+    ASSERT_NO_FATAL_FAILURE(damage({1, 4}));
+    {
+        const auto frames = PosedFrames::Open(scan);
+        ASSERT_TRUE(frames.ok()) << frames.message();
+        std::string names;
+        const Status read = frames.value()->ForEach([&](const PosedFrame& frame) {
+            names += frame.name + " ";
+            EXPECT_EQ(frame.depth_m.width(), SmallCamera().width);
+            return Status::Ok();
+        });
+        ASSERT_TRUE(read.ok()) << read.message();
+        EXPECT_EQ(names, "000000 000003 ");
+        ASSERT_EQ(frames.value()->notes().size(), 1u);
+        EXPECT_EQ(
+            frames.value()->notes()[0].find("2 of 5 frames are left out (" + scan + ": frame 1"),
+            0u)
+            << frames.value()->notes()[0];
+    }
+    ASSERT_NO_FATAL_FAILURE(damage({0, 3}));
+    const auto none = PosedFrames::Open(scan);
+    ASSERT_TRUE(none.ok()) << none.message();
+    const Status nothing = none.value()->ForEach([](const PosedFrame&) { return Status::Ok(); });
+    EXPECT_NE(nothing.message().find("; no frame can be exported"), std::string::npos)
+        << nothing.message();
+}
+
 TEST(PosedFrames, AScanWithoutThemNamesTheKey) {
     const TempFolder folder;
     WritePosedScan(folder / "a.scan", false);

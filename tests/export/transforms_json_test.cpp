@@ -14,7 +14,7 @@ class Transforms : public testing::Test {
   protected:
     void Write() {
         WritePosedScan(scan);
-        const Status status =
+        const auto status =
             WriteTransforms(scan, PointsOfTheRoom(5000), folder / "set/transforms.json");
         ASSERT_TRUE(status.ok()) << status.message();
         json = nlohmann::json::parse(ReadBytes(folder / "set/transforms.json"));
@@ -103,7 +103,7 @@ TEST_F(Transforms, PointsLieInTheFilesWorldAndAppliedTransformLeadsBack) {
 
 TEST_F(Transforms, WhatIsThereAlreadyIsRefused) {
     ASSERT_NO_FATAL_FAILURE(Write());
-    const Status again = WriteTransforms(scan, {}, folder / "set/other.json");
+    const auto again = WriteTransforms(scan, {}, folder / "set/other.json");
     EXPECT_NE(again.message().find("set/images: already contains files"), std::string::npos)
         << again.message();
     EXPECT_FALSE(std::filesystem::exists(folder / "set/other.json"));
