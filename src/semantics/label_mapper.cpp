@@ -72,12 +72,14 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
             ballots[i] = {static_cast<std::uint8_t>(detections[i].class_id), match[i],
                           visible.contains(match[i]),
                           instances_.Covered(observed[i], visible, match)};
-    std::vector<InstanceId> joined(static_cast<std::size_t>(instances_.last()) + 1, 0);
-    for (std::size_t id = 1; id < joined.size(); ++id)
-        joined[id] = instances_.Resolve(static_cast<InstanceId>(id));
+    std::vector<Holder> holders(static_cast<std::size_t>(instances_.last()) + 1);
+    for (const InstanceId id : instances_.ids()) {
+        const InstanceId now = instances_.Resolve(id);
+        holders[id] = {now, instances_.stands(now)};
+    }
     const double band_m = config_.band_voxels * map.config().voxel_size_m;
     VoteCount count =
-        VoteLabels(image_, ballots, joined, depth_m, camera_, T_world_camera, band_m, map);
+        VoteLabels(image_, ballots, holders, depth_m, camera_, T_world_camera, band_m, map);
     instance_view_.Voted(count.blocks);
     KnowBlocks(map);
     for (const BlockId id : count.blocks) votes_[static_cast<std::size_t>(id)] = Votes::kNew;
