@@ -182,12 +182,20 @@ void LabelMapper::SaveState(StateWriter& state) const {
     instances_.SaveState(state);
 }
 
-bool LabelMapper::LoadState(StateReader& state) {
+std::optional<std::vector<std::string>> LabelMapper::LoadClassNames(StateReader& state) {
     int count = 0;
-    std::string name;
-    if (!state.Get(count) || count != classes_.count()) return false;
-    for (int id = 1; id <= count; ++id)
-        if (!state.Get(name) || name != classes_.name(id)) return false;
+    if (!state.Get(count) || count < 0 || count > LabelClasses::kMost) return std::nullopt;
+    std::vector<std::string> names(static_cast<std::size_t>(count));
+    for (std::string& name : names)
+        if (!state.Get(name)) return std::nullopt;
+    return names;
+}
+
+bool LabelMapper::LoadState(StateReader& state) {
+    const auto names = LoadClassNames(state);
+    if (!names || std::ssize(*names) != classes_.count()) return false;
+    for (int id = 1; id <= classes_.count(); ++id)
+        if ((*names)[static_cast<std::size_t>(id - 1)] != classes_.name(id)) return false;
     loaded_ = true;
     return instances_.LoadState(state);
 }
