@@ -54,8 +54,10 @@ class Detector {
 std::vector<Detection> ExtractDynamic(const LabelClasses& classes, double min_probability,
                                       std::vector<Detection>& detections);
 // Keeps detections of wanted classes with at least `min_probability`, sets class_id and sorts by
-// decreasing probability.
-void FilterWanted(const LabelClasses& classes, double min_probability,
+// decreasing probability. Of two detections of a class under different names of the detector that
+// overlap by more than `overlap` (BoxOverlap), the less probable one is removed. Under the same
+// name only if they share nearly the same box: objects of a class lie on each other.
+void FilterWanted(const LabelClasses& classes, double min_probability, double overlap,
                   std::vector<Detection>& detections);
 
 }  // namespace tessera

@@ -57,7 +57,7 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     const std::vector<Detection> dynamic =
         ExtractDynamic(classes_, config_.min_probability, report.detections);
     report.moving = HintOf(frame, camera_, dynamic, config_.region);
-    FilterWanted(classes_, config_.min_probability, report.detections);
+    FilterWanted(classes_, config_.min_probability, config_.overlap, report.detections);
     report.detect_ms = watch.LapMs();
     return true;
 }
