@@ -39,9 +39,10 @@ class Detector {
   public:
     virtual ~Detector() = default;
     // Detects objects in the frame's colour image, of all classes and probabilities. After an error
-    // (the network failed, or the frame has no colour) the detector is no longer used. Never
-    // throws.
+    // (the network failed) the detector is no longer used. Never throws.
     virtual Result<std::vector<Detection>> Detect(const Frame& frame) = 0;
+    // If true, Detect is not called for frames without colour.
+    virtual bool needs_colour() const { return false; }
     // Makes the detector run only on the calling thread, as far as it can, because more urgent work
     // runs in parallel.
     virtual void WorkInBackground() {}
