@@ -62,6 +62,12 @@ TESSERA_HD bool VoteForClass(std::uint8_t class_id, VoxelLabel& v) {
     return flipped;
 }
 
+// The voxel's instance was joined into this one, or dropped (0).
+TESSERA_HD void HoldInstance(std::uint16_t instance, VoxelLabel& v) {
+    v.instance = instance;
+    if (instance == 0) v.instance_count = 0;
+}
+
 // Adds one vote for an instance. Another instance, or 0, votes against the current one.
 TESSERA_HD void VoteForInstance(std::uint16_t instance, VoxelLabel& v) {
     if (instance != 0 && (v.instance == instance || v.instance_count == 0)) {

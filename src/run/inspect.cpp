@@ -36,6 +36,9 @@ class Inspector {
         if (classes_) labelling_.Detect(frame, last, pipeline_.tracking());
         if (const std::string failure = labelling_.TakeFailure(); !failure.empty())
             return Status::Error(failure);
+        if (last && classes_ && !labelling_.detected())
+            return Status::Error(fmt::format(
+                "frame {} has no colour image, in which the detector could look", frame.index));
         pipeline_.SetFusing(!last);
         FrameReport report = pipeline_.Process(frame);
         if (classes_ && report.fused)

@@ -46,15 +46,14 @@ std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
 
 // What was looked for, so that `tessera eval` can tell a class that was never found from one that
 // nobody asked for.
-std::string DetectionsHeader(const RunConfig& config, const LabelClasses& classes) {
+std::string DetectionsHeader(const LabelClasses& classes) {
     std::string header =
         "# stamp class probability xmin ymin xmax ymax; '# frame STAMP' before each frame looked "
         "at\n# classes";
     for (int id = 1; id <= classes.count(); ++id)
         if (classes.CanBeFound(id)) header += " " + classes.name(id);
     header += "\n# aliases";
-    const ClassAliases aliases = ParseAliases(config.labels.aliases).value();
-    for (const auto& [from, to] : aliases) header += " " + from + "=" + to;
+    for (const auto& [from, to] : classes.aliases()) header += " " + from + "=" + to;
     return header + "\n";
 }
 
@@ -83,7 +82,7 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
 }
 
 Status RunOutput::BeginDetections(const LabelClasses& classes) {
-    return OpenGrowing("detections.txt", DetectionsHeader(config_, classes), detections_);
+    return OpenGrowing("detections.txt", DetectionsHeader(classes), detections_);
 }
 
 Status RunOutput::OpenGrowing(const std::string& name, const std::string& header, Lines& lines) {

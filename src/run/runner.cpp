@@ -88,9 +88,7 @@ Status Runner::Open(const std::atomic<bool>& stop) {
             OpenLabelling(request_.labels, request_.source, config_.synthetic, config_.labels);
         if (!opened.ok()) return opened.status();
         labelling = std::move(opened.value());
-        class_names_ = labelling.classes;
-        window_.Show(class_names_);
-        summary_.labels.emplace();
+        if (Status status = BeginLabels(labelling.classes); !status.ok()) return status;
     }
     Result<ScanPlan> scan = OpenScan();
     if (!scan.ok()) return scan.status();

@@ -69,6 +69,8 @@ Status Runner::BeginLabels(const LabelClasses& classes) {
     window_.Show(class_names_);
     if (summary_.labels) return Status::Ok();
     summary_.labels.emplace();
+    if (const std::string warning = WarningOf(config_.labels, classes); !warning.empty())
+        Warn(warning);
     return output_ ? output_->BeginDetections(class_names_) : Status::Ok();
 }
 

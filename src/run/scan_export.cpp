@@ -10,6 +10,7 @@
 #include "io/frame_recorder.h"
 #include "scan/scan_source.h"
 #include "scan/shown_scan.h"
+#include "semantics/label_mapper.h"
 #include "system/mapping_stage.h"
 #include "system/run_config.h"
 
@@ -79,6 +80,21 @@ class SessionFolders {
     int session_ = 1;
 };
 
+Status OtherClasses() {
+    return Status::Error("the scan's labels do not match the classes in its configuration");
+}
+
+// "all" stands for the classes that the scan has, under the names that they have now.
+Result<LabelClasses> ClassesOf(const ScanContent& scan, LabelConfig config) {
+    StateReader state(scan.labels);
+    const auto names = LabelMapper::LoadClassNames(state);
+    if (!names) return OtherClasses();
+    config.aliases.clear();
+    Result<LabelClasses> classes = LabelClasses::Make(config, *names);
+    if (!classes.ok()) return OtherClasses();
+    return classes;
+}
+
 }  // namespace
 
 RunConfig ConfigOf(const ScanMeta& meta) {
@@ -97,12 +113,11 @@ Result<TriangleMesh> MeshOfScan(ScanContent& scan) {
     const RunConfig config = ConfigOf(scan.meta);
     MappingStage mapping(config.pipeline, config.meshing, scan.meta.camera);
     if (scan.progress.labels) {
-        Result<LabelClasses> classes = LabelClasses::Make(config.labels, {});
+        Result<LabelClasses> classes = ClassesOf(scan, config.labels);
         if (!classes.ok()) return classes.status();
         mapping.EnableLabels(config.labels, std::move(classes.value()));
         StateReader labels(scan.labels);
-        if (!mapping.LoadLabels(labels))
-            return Status::Error("the scan's labels do not match the classes in its configuration");
+        if (!mapping.LoadLabels(labels)) return OtherClasses();
     }
     mapping.Resume(std::move(scan.map), scan.progress.fused_frames);
     return mapping.TakeMesh();

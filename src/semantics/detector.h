@@ -39,9 +39,10 @@ class Detector {
   public:
     virtual ~Detector() = default;
     // Detects objects in the frame's colour image, of all classes and probabilities. After an error
-    // (the network failed, or the frame has no colour) the detector is no longer used. Never
-    // throws.
+    // (the network failed) the detector is no longer used. Never throws.
     virtual Result<std::vector<Detection>> Detect(const Frame& frame) = 0;
+    // If true, Detect is not called for frames without colour.
+    virtual bool needs_colour() const { return false; }
     // Makes the detector run only on the calling thread, as far as it can, because more urgent work
     // runs in parallel.
     virtual void WorkInBackground() {}
@@ -54,8 +55,10 @@ class Detector {
 std::vector<Detection> ExtractDynamic(const LabelClasses& classes, double min_probability,
                                       std::vector<Detection>& detections);
 // Keeps detections of wanted classes with at least `min_probability`, sets class_id and sorts by
-// decreasing probability.
-void FilterWanted(const LabelClasses& classes, double min_probability,
+// decreasing probability. Of two detections of a class under different names of the detector that
+// overlap by more than `overlap` (BoxOverlap), the less probable one is removed. Under the same
+// name only if they share nearly the same box: objects of a class lie on each other.
+void FilterWanted(const LabelClasses& classes, double min_probability, double overlap,
                   std::vector<Detection>& detections);
 
 }  // namespace tessera

@@ -38,6 +38,7 @@ class DnnDetector : public Detector {
     Status SetNames(std::vector<std::string> names);
 
     Result<std::vector<Detection>> Detect(const Frame& frame) override;
+    bool needs_colour() const override { return true; }
     // OpenCV's thread count applies to the whole process. Nothing else here uses OpenCV's threads
     // while frames arrive.
     void WorkInBackground() override { cv::setNumThreads(1); }

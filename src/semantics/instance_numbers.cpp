@@ -30,8 +30,8 @@ void Instances::AddMarks(const std::vector<std::uint64_t>& marks, InstanceRecord
 
 void Instances::KeepNumbersOf(const Instances& before) {
     std::vector<std::tuple<int, InstanceId, InstanceId>> pairs;  // (-shared marks, new id, old id)
-    for (InstanceId id = 1; id <= last(); ++id)
-        for (InstanceId old_id = 1; old_id <= before.last(); ++old_id)
+    for (const InstanceId id : ids())
+        for (const InstanceId old_id : before.ids())
             if (Resolve(id) == id && before.Resolve(old_id) == old_id && before.confirmed(old_id))
                 if (const int common = CommonMarks(records_[id], before.records_[old_id]))
                     pairs.emplace_back(-common, id, old_id);

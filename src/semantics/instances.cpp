@@ -105,7 +105,7 @@ std::vector<InstanceId> Instances::Match(const std::vector<ObservedObject>& obse
     for (std::size_t i = 0; i < observed.size(); ++i)
         if (match[i] != 0) Update(match[i], observed[i], At(visible, match[i]).pixels);
     GatherEvidence(observed, visible, match);
-    for (InstanceId id = 1; id <= last(); ++id) Judge(id);
+    for (const InstanceId id : ids()) Judge(id);
     for (InstanceId& id : match) id = Resolve(id);
     return match;
 }
@@ -121,8 +121,9 @@ void Instances::Assign(const std::vector<ObservedObject>& observed,
     };
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < observed.size(); ++i) {
-        for (InstanceId id = 1; id <= last(); ++id)  // instances whose votes are still outvoted
-            if (!visible.contains(id) && Resolve(id) == id && ClassOf(id) == observed[i].class_id)
+        for (const InstanceId id : ids())  // instances whose votes are still outvoted
+            if (At(visible, id).pixels < kLeastVisible && !observed[i].overlaps.contains(id) &&
+                Resolve(id) == id && ClassOf(id) == observed[i].class_id)
                 if (const double space = IntersectionOverUnion(observed[i].box, records_[id].box);
                     space >= kSameUnseen)
                     candidates.push_back({0.1 * space, i, id});

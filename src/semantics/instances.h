@@ -23,6 +23,23 @@ namespace tessera {
 // at most 65535.
 using InstanceId = std::uint16_t;
 
+// The numbers 1 to `last`, for loops: a counter of type InstanceId could not pass the largest one.
+struct InstanceIds {
+    struct Iterator {
+        int id;
+        InstanceId operator*() const { return static_cast<InstanceId>(id); }
+        Iterator& operator++() {
+            ++id;
+            return *this;
+        }
+        bool operator==(const Iterator&) const = default;
+    };
+    Iterator begin() const { return {1}; }
+    Iterator end() const { return {last + 1}; }
+
+    InstanceId last = 0;
+};
+
 // One detection as measured against the map. All pixel counts use the same sampling grid. A pixel
 // that several detections claim counts for each of them.
 struct ObservedObject {
@@ -111,6 +128,7 @@ class Instances {
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
     InstanceId last() const { return static_cast<InstanceId>(records_.size() - 1); }
+    InstanceIds ids() const { return {last()}; }  // all, also those that were joined or dropped
 
   private:
     struct PairEvidence {
@@ -120,7 +138,7 @@ class Instances {
     void Assign(const std::vector<ObservedObject>& observed,
                 const std::map<InstanceId, VisibleObject>& visible,
                 std::vector<InstanceId>& match) const;
-    InstanceId Add();
+    InstanceId Add();  // 0: there is no number left
     void Update(InstanceId id, const ObservedObject& observed, int visible);
     void Judge(InstanceId id);
     bool Covers(const ObservedObject& observed, const std::map<InstanceId, VisibleObject>& visible,

@@ -1,9 +1,28 @@
-#include <algorithm>
 #include <vector>
 
 #include "semantics/instances.h"
 
 namespace tessera {
+namespace {
+
+// False if Instances::Resolve would not end or would leave the records. A joined instance may be
+// the older or the newer one.
+bool MergesEnd(const std::vector<InstanceRecord>& records) {
+    std::vector<bool> ends(records.size(), false);
+    ends[0] = true;
+    if (records[0].merged_into != 0) return false;
+    for (std::size_t i = 1; i < records.size(); ++i) {
+        std::size_t id = i;
+        for (std::size_t steps = 0; !ends[id]; ++steps) {
+            id = records[id].merged_into;
+            if (id >= records.size() || steps == records.size()) return false;
+        }
+        for (id = i; !ends[id]; id = records[id].merged_into) ends[id] = true;
+    }
+    return true;
+}
+
+}  // namespace
 
 void Instances::SaveState(StateWriter& state) const {
     state.Put(static_cast<std::uint64_t>(records_.size()));
@@ -64,9 +83,9 @@ bool Instances::LoadState(StateReader& state) {
         bool empty = true;
         state.Get(empty);
         if (!empty && (!state.Get(r.box.min()) || !state.Get(r.box.max()))) return false;
-        // Merges point to older instances, so following them terminates.
-        if (!state.ok() || r.merged_into >= std::max<std::uint64_t>(i, 1)) return false;
+        if (!state.ok()) return false;
     }
+    if (!MergesEnd(records)) return false;
     std::map<std::pair<InstanceId, InstanceId>, PairEvidence> evidence;
     state.Get(count);
     for (; state.ok() && count > 0; --count) {

@@ -55,7 +55,9 @@ void LabelConfig::Describe(ConfigParameters& p) {
     p.Add("classes", classes,
           "classes to label, separated by blanks, each with an optional colour (cup=#b146c2); "
           "write _ for a blank in a name; all stands for every class of the detector");
-    p.Add("aliases", aliases, "renames classes: the detector's name=our name, separated by blanks");
+    p.Add("aliases", aliases,
+          "renames classes: the detector's name=our name, separated by blanks; a name that is in "
+          "labels.classes or labels.dynamic is kept");
     p.Add("dynamic", dynamic,
           "classes that may move at any time, separated by blanks; their pixels are neither fused, "
           "even while the object stands still, nor labelled");
@@ -100,7 +102,7 @@ void LabelConfig::Describe(ConfigParameters& p) {
           "side length of the network's square input, a multiple of 32; 0 tries 416, 640 and 320");
     p.Add("overlap", overlap, {0.0, 1.0}, "",
           "if two boxes of one class overlap by more than this (intersection over union), the less "
-          "probable one is removed");
+          "probable one is removed; in a detections file, two of the same name only above 0.8");
     p.Add("synthetic_missed", synthetic_missed, {0.0, 1.0}, "",
           "share of detections that --labels synthetic omits");
     p.Add("synthetic_wrong", synthetic_wrong, {0.0, 1.0}, "",
@@ -136,6 +138,10 @@ Result<LabelClasses> LabelClasses::Make(const LabelConfig& config,
     const bool all =
         std::ranges::any_of(wanted, [](const auto& entry) { return entry.first == "all"; });
     std::erase_if(wanted, [](const auto& entry) { return entry.first == "all"; });
+    std::erase_if(made.aliases_, [&](const auto& alias) {
+        return made.dynamic_.contains(alias.first) ||
+               std::ranges::find(wanted, alias.first, &Pairs::value_type::first) != wanted.end();
+    });
     if (all)
         for (const std::string& name : known)
             if (std::ranges::none_of(
@@ -180,6 +186,16 @@ bool LabelClasses::IsDynamic(const std::string& detector_name) const {
 
 bool LabelClasses::CanBeFound(int id) const {
     return !dynamic_.contains(name(id)) && (known_ids_.empty() || known_ids_.contains(id));
+}
+
+std::string WarningOf(const LabelConfig& config, const LabelClasses& classes) {
+    if (config.classes == LabelConfig().classes) return {};
+    std::string names;
+    for (const auto& [name, colour] : SplitPairs(config.classes))
+        if (const int id = classes.IdOf(name); id != 0 && !classes.CanBeFound(id))
+            names += (names.empty() ? "" : ", ") + name;
+    if (names.empty()) return {};
+    return "labels.classes: the detector does not know, or labels.dynamic takes: " + names;
 }
 
 }  // namespace tessera

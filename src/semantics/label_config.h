@@ -33,7 +33,8 @@ struct LabelConfig {
     // "name" or "name=#rrggbb", separated by blanks; "all" stands for every class of the detector.
     std::string classes =
         "computer=#e6403a laptop=#f5a623 keyboard=#3cb44b book=#4363d8 cup=#b146c2";
-    // "detector's name=our name", separated by blanks.
+    // "detector's name=our name", separated by blanks. A name that `classes` or `dynamic` lists is
+    // not renamed.
     std::string aliases = "tv=computer tvmonitor=computer monitor=computer";
     std::string dynamic = "person";  // names as in `classes`, without colours
     double min_probability = 0.5;    // [D18] 3.3
@@ -44,11 +45,11 @@ struct LabelConfig {
     double min_rate = 0.3;
     int stride = 1;
     double max_rate_hz = 3;
+    double overlap = 0.45;
     // For network detectors.
     ModelFamily family = ModelFamily::kAuto;
     std::string names;
     int input_px = 0;
-    double overlap = 0.45;
     // For --labels synthetic.
     double synthetic_missed = 0.1, synthetic_wrong = 0.03;
     int synthetic_seed = 1;
@@ -83,6 +84,7 @@ class LabelClasses {
     // `id` in [0, count].
     const std::string& name(int id) const { return names_[static_cast<std::size_t>(id)]; }
     Rgb8 colour(int id) const { return colours_[static_cast<std::size_t>(id)]; }
+    const ClassAliases& aliases() const { return aliases_; }  // those in use
 
   private:
     void Add(const std::string& name, Rgb8 colour);
@@ -104,6 +106,10 @@ struct LabelSettings {
     LabelPrediction prediction = LabelPrediction::kRayCast;
     ClassSet ignored;  // classes whose detections are dropped
 };
+
+// What the user should know of the classes that labels.classes names: which of them cannot be
+// found. Usually empty; also for the default list, which is made for no particular detector.
+std::string WarningOf(const LabelConfig& config, const LabelClasses& classes);
 
 // Neighbouring numbers get distinct colours; the colour of n never changes.
 Rgb8 DistinctColour(int n);

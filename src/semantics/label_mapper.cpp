@@ -72,12 +72,14 @@ VoteCount LabelMapper::Label(std::span<const Detection> detections, const DepthI
             ballots[i] = {static_cast<std::uint8_t>(detections[i].class_id), match[i],
                           visible.contains(match[i]),
                           instances_.Covered(observed[i], visible, match)};
-    std::vector<InstanceId> joined(static_cast<std::size_t>(instances_.last()) + 1, 0);
-    for (std::size_t id = 1; id < joined.size(); ++id)
-        joined[id] = instances_.Resolve(static_cast<InstanceId>(id));
+    std::vector<Holder> holders(static_cast<std::size_t>(instances_.last()) + 1);
+    for (const InstanceId id : instances_.ids()) {
+        const InstanceId now = instances_.Resolve(id);
+        holders[id] = {now, instances_.stands(now)};
+    }
     const double band_m = config_.band_voxels * map.config().voxel_size_m;
     VoteCount count =
-        VoteLabels(image_, ballots, joined, depth_m, camera_, T_world_camera, band_m, map);
+        VoteLabels(image_, ballots, holders, depth_m, camera_, T_world_camera, band_m, map);
     instance_view_.Voted(count.blocks);
     KnowBlocks(map);
     for (const BlockId id : count.blocks) votes_[static_cast<std::size_t>(id)] = Votes::kNew;
@@ -180,12 +182,20 @@ void LabelMapper::SaveState(StateWriter& state) const {
     instances_.SaveState(state);
 }
 
-bool LabelMapper::LoadState(StateReader& state) {
+std::optional<std::vector<std::string>> LabelMapper::LoadClassNames(StateReader& state) {
     int count = 0;
-    std::string name;
-    if (!state.Get(count) || count != classes_.count()) return false;
-    for (int id = 1; id <= count; ++id)
-        if (!state.Get(name) || name != classes_.name(id)) return false;
+    if (!state.Get(count) || count < 0 || count > LabelClasses::kMost) return std::nullopt;
+    std::vector<std::string> names(static_cast<std::size_t>(count));
+    for (std::string& name : names)
+        if (!state.Get(name)) return std::nullopt;
+    return names;
+}
+
+bool LabelMapper::LoadState(StateReader& state) {
+    const auto names = LoadClassNames(state);
+    if (!names || std::ssize(*names) != classes_.count()) return false;
+    for (int id = 1; id <= classes_.count(); ++id)
+        if ((*names)[static_cast<std::size_t>(id - 1)] != classes_.name(id)) return false;
     loaded_ = true;
     return instances_.LoadState(state);
 }

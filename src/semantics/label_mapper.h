@@ -5,7 +5,9 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mapping/block_mesh.h"
@@ -91,6 +93,8 @@ class LabelMapper {
     // differ.
     void SaveState(StateWriter& state) const;
     bool LoadState(StateReader& state);
+    // Reads the class names, with which a state begins. Nothing if it is damaged.
+    static std::optional<std::vector<std::string>> LoadClassNames(StateReader& state);
 
   private:
     static constexpr float kNear_m = 0.1f;  // of predicted views

@@ -155,7 +155,7 @@ void LabelMapper::Meshed(const BlockMap& map, std::span<const BlockId> blocks) {
 std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& labelled) const {
     std::vector<MapObject> objects;
     std::map<int, double> least_m2;  // by public number
-    for (InstanceId id = 1; id <= instances_.last() && id != 0; ++id) {
+    for (const InstanceId id : instances_.ids()) {
         if (instances_.Resolve(id) != id || !instances_.stands(id)) continue;
         MapObject object;
         object.id = instances_.record(id).public_id;

@@ -15,14 +15,14 @@ constexpr int kApartWeight = 3;
 struct Voting {
     const LabelImage& labels;
     std::span<const Ballot> ballots;
-    std::span<const std::uint16_t> joined;
+    std::span<const Holder> holders;
     const DepthImage& depth_m;
     const PinholeCamera& camera;
     Eigen::Isometry3d T_camera_world;
     double band_m;
 
-    std::uint16_t HolderOf(const VoxelLabel& voxel) const {
-        return voxel.instance < joined.size() ? joined[voxel.instance] : 0;
+    Holder HolderOf(const VoxelLabel& voxel) const {
+        return voxel.instance < holders.size() ? holders[voxel.instance] : Holder{};
     }
     bool IsDetected(std::uint16_t instance) const {
         return std::ranges::any_of(
@@ -41,10 +41,11 @@ struct Vote {
     int weight = 0;  // of the vote for the instance
 };
 
-Vote VoteOf(const Voting& v, const Claims& claims, const VoxelLabel& voxel) {
-    if (claims.first == LabelImage::kBesideObjects) return {kBackgroundClass, 0, 1};
+Vote VoteOf(const Voting& v, const Claims& claims, const Holder& held_by) {
+    const std::uint16_t holder = held_by.instance;
+    if (claims.first == LabelImage::kBesideObjects)
+        return held_by.stands && !v.IsDetected(holder) ? Vote{} : Vote{kBackgroundClass, 0, 1};
     const Ballot* ballot = &v.ballots[claims.first - 1u];
-    const std::uint16_t holder = v.HolderOf(voxel);
     if (holder == 0 || holder == ballot->instance || ballot->instance == 0)
         return {ballot->class_id, ballot->instance, 1};
     if (claims.second != 0 && ballot->shown && v.ballots[claims.second - 1u].instance == holder)
@@ -120,8 +121,10 @@ VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
         const Claims claims = ClaimsAt(v, v.T_camera_world * (voxel * voxel_m), band);
         if (claims.first == 0) continue;
         VoxelLabel& voxel_label = map.label(id)[i];
-        const Vote vote = VoteOf(v, claims, voxel_label);
+        const Holder holder = v.HolderOf(voxel_label);
+        const Vote vote = VoteOf(v, claims, holder);
         if (vote.class_id == 0) continue;
+        HoldInstance(holder.instance, voxel_label);
         const bool was_settled = IsSettledOnObject(voxel_label);
         count.flips += VoteForClass(vote.class_id, voxel_label);
         count.settled += !was_settled && IsSettledOnObject(voxel_label);
@@ -134,10 +137,11 @@ VoteCount VoteInBlock(const Voting& v, BlockId id, BlockMap& map) {
 }  // namespace
 
 VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots,
-                     std::span<const std::uint16_t> joined, const DepthImage& depth_m,
+                     std::span<const Holder> holders, const DepthImage& depth_m,
                      const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
                      double band_m, BlockMap& map) {
-    const Voting voting{labels, ballots, joined, depth_m, camera, T_world_camera.inverse(), band_m};
+    const Voting voting{labels, ballots, holders, depth_m, camera, T_world_camera.inverse(),
+                        band_m};
     const std::vector<BlockId> blocks = BlocksOf(voting, T_world_camera, map);
     std::vector<std::uint8_t> got_votes(blocks.size());
     std::atomic<std::int64_t> voxels = 0, flips = 0, settled = 0;

@@ -21,6 +21,12 @@ struct Ballot {
     std::vector<std::uint16_t> covered = {};
 };
 
+// What a voxel means that holds an instance number.
+struct Holder {
+    std::uint16_t instance = 0;  // that the number was joined into, or itself; 0: dropped
+    bool stands = false;         // Instances::stands
+};
+
 struct VoteCount {
     std::int64_t voxels = 0;  // that got a vote
     std::int64_t flips = 0;   // settled voxels whose class changed (voxel_label.h)
@@ -31,12 +37,13 @@ struct VoteCount {
 
 // Adds one vote to each voxel whose stored distance is at most `band_m` and that the frame sees: it
 // must project to a labelled pixel whose depth is within the truncation distance. `ballots`: one
-// per detection. Pixels beside objects vote for the background. A pixel claimed by two detections
-// votes for the one whose instance the voxel holds. `joined`: the current instance for each
-// instance number. The map must have labels; no voxels are created. Uses all cores (TBB); the
-// result does not depend on their number. Map's owner thread only.
+// per detection. Pixels beside objects vote for the background, unless the voxel holds an instance
+// that stands and was not detected. A pixel claimed by two detections votes for the one whose
+// instance the voxel holds. `holders`: by instance number. A voxel that gets a vote then holds the
+// current number. The map must have labels; no voxels are created. Uses all cores (TBB); the result
+// does not depend on their number. Map's owner thread only.
 VoteCount VoteLabels(const LabelImage& labels, std::span<const Ballot> ballots,
-                     std::span<const std::uint16_t> joined, const DepthImage& depth_m,
+                     std::span<const Holder> holders, const DepthImage& depth_m,
                      const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
                      double band_m, BlockMap& map);
 

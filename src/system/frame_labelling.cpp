@@ -4,9 +4,10 @@ namespace tessera {
 
 void FrameLabelling::Detect(const Frame& frame, bool always, TrackingStage& tracking) {
     detected_.reset();
-    if (!always && frames_ % config_.stride != 0) return;
+    if (!always && !owed_ && frames_ % config_.stride != 0) return;
     LabelReport report;
     std::string failure;
+    owed_ = stage_.LacksColour(frame);
     if (!stage_.Detect(frame, report, failure)) {
         if (!failure.empty()) failure_ = std::move(failure);
         return;

@@ -22,8 +22,8 @@ class FrameLabelling {
     // Continues a scan in which so many frames were fused with labelling on.
     void Resume(std::int64_t frames) { frames_ = frames; }
 
-    // Detects in every stride-th fused frame, or `always`. Before the frame is tracked, because
-    // people in it may have to be masked.
+    // Detects in every stride-th fused frame, or `always`. If that lacks colour, in the next one
+    // that has it. Before the frame is tracked, because people in it may have to be masked.
     void Detect(const Frame& frame, bool always, TrackingStage& tracking);
     // Call after the frame was fused: counts it, and returns its detections. Nothing if it was not
     // looked at.
@@ -49,6 +49,7 @@ class FrameLabelling {
     std::string failure_, chosen_;
     std::shared_ptr<const LabelClasses> begun_;
     std::int64_t frames_ = 0;
+    bool owed_ = false;  // a frame that was due lacked colour
 };
 
 }  // namespace tessera

@@ -35,6 +35,14 @@ std::string LabellingStopped(const std::string& why) {
 bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string& message) {
     message.clear();
     if (broken_ || !detector_) return false;
+    if (LacksColour(frame)) {
+        broken_ = !had_colour_ && ++without_colour_ >= kMostWithoutColour;
+        if (broken_)
+            message = fmt::format("labels: none of the first {} frames has a colour image",
+                                  kMostWithoutColour);
+        return false;
+    }
+    had_colour_ |= !frame.colour.empty();
     Stopwatch watch;
     const auto detect = [&]() -> Result<std::vector<Detection>> {
         try {
@@ -57,7 +65,7 @@ bool LabellingStage::Detect(const Frame& frame, LabelReport& report, std::string
     const std::vector<Detection> dynamic =
         ExtractDynamic(classes_, config_.min_probability, report.detections);
     report.moving = HintOf(frame, camera_, dynamic, config_.region);
-    FilterWanted(classes_, config_.min_probability, report.detections);
+    FilterWanted(classes_, config_.min_probability, config_.overlap, report.detections);
     report.detect_ms = watch.LapMs();
     return true;
 }
@@ -91,6 +99,7 @@ DetectorChange LabellingStage::Change(const std::string& name, const OpenDetecto
     detector_ = std::move(labelling.value().detector);
     if (classes_.count() == 0) classes_ = std::move(labelling.value().classes);
     broken_ = false;
+    without_colour_ = 0;
     if (in_background_) detector_->WorkInBackground();
     return {"objects are detected with " + name, std::make_shared<const LabelClasses>(classes_)};
 }
@@ -126,11 +135,9 @@ void LabellingThread::Detect(Job& job) {
     Answer answer;
     answer.job = std::move(job);
     if (!stage_.Detect(*answer.job.frame, answer.report, answer.message)) {
-        broken_.store(true);
-        if (answer.message.empty())
-            answer.job.map.world = -1;
-        else
-            answer.message = LabellingStopped(answer.message);
+        broken_.store(stage_.broken());
+        answer.looked_at = false;
+        if (!answer.message.empty()) answer.message = LabellingStopped(answer.message);
     }
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than jobs");
 }

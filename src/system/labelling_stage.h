@@ -1,6 +1,7 @@
 // Runs a detector on frames: as a step on the caller's thread (lockstep), or on its own thread,
 // where the newest frame wins and answers arrive asynchronously (live). A detector failure is
-// reported once. Labelling then stops and the run continues.
+// reported once. Labelling then stops and the run continues. Frames without the colour that a
+// detector needs are passed over; if the first ones all have none, that is a failure.
 #pragma once
 
 #include <atomic>
@@ -55,9 +56,15 @@ class LabellingStage {
           config_(config),
           camera_(camera) {}
 
-    // Returns false after the detector has failed. `message` gives the error the first time and is
-    // empty after that.
+    static constexpr int kMostWithoutColour = 30;  // frames, before any with colour
+
+    // Returns false if nobody looked at the frame: it lacks colour, or the detector has failed.
+    // `message` gives the error the first time and is empty after that.
     bool Detect(const Frame& frame, LabelReport& report, std::string& message);
+    bool LacksColour(const Frame& frame) const {
+        return detector_ && detector_->needs_colour() && frame.colour.empty();
+    }
+    bool broken() const { return broken_; }  // the detector has failed
     // Replaces the detector. The classes stay those of the first one, because the map's labels are
     // numbered by them; the new one must know one of them.
     DetectorChange Change(const std::string& name, const OpenDetectorFunction& open);
@@ -74,7 +81,8 @@ class LabellingStage {
     LabelClasses classes_;
     LabelConfig config_;
     PinholeCamera camera_;
-    bool broken_ = false, in_background_ = false;
+    bool broken_ = false, in_background_ = false, had_colour_ = false;
+    int without_colour_ = 0;  // frames before any with colour
 };
 
 // Offer and TryTake: mapping thread only.
@@ -87,7 +95,8 @@ class LabellingThread {
         MapVersion map;
     };
     struct Answer {
-        Job job;  // of no world (-1) if nobody looked at the frame, which only comes back
+        Job job;
+        bool looked_at = true;  // false: the frame only comes back
         LabelReport report;
         std::string message;  // for the user; if set, the report is empty
     };

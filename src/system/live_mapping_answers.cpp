@@ -50,6 +50,8 @@ void LiveMapping::TakeLabels() {
             life_.paging()->ReleaseHold(answer.job.frame->index);
         if (!answer.message.empty())
             links_.Report(FrameOutcome::Kind::kLabelsEnd, answer.message);
+        else if (!answer.looked_at)
+            last_detection_s_.reset();  // the next frame is looked at instead
         else if (answer.job.map.world == world_)
             TakeLabels(answer);
         links_.frames.Give(std::move(answer.job.frame));

@@ -1,6 +1,7 @@
 // Runs that are refused or track nothing: what they say, and the files they leave.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -64,6 +65,20 @@ TEST_F(Run, DepthsOutOfRangeAreNamedOnceAndLost) {
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("is depth_scale right?"), std::string::npos);
     EXPECT_TRUE(fs::exists(Out("run.json")));
+}
+
+TEST_F(Run, ClassesThatTheDetectorCannotFindAreTold) {
+    request.labels = "synthetic";
+    config.labels.classes = "cup sofa tv";
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_EQ(
+        std::ranges::count(warnings, std::string("labels.classes: the detector does not know, or "
+                                                 "labels.dynamic takes: sofa, tv")),
+        1);
+    EXPECT_NE(ReadAll(Out("detections.txt"))
+                  .find("# classes cup\n# aliases monitor=computer tvmonitor=computer\n"),
+              std::string::npos);
 }
 
 }  // namespace

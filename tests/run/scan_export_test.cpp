@@ -10,6 +10,7 @@
 
 #include "export/posed_scan.h"
 #include "io/folder_source.h"
+#include "run/run_fixture.h"
 
 namespace tessera {
 namespace {
@@ -95,6 +96,22 @@ TEST_F(FramesOfScan, ADamagedFrameIsLeftOutAndCounted) {
     EXPECT_EQ(ExportFrames(scan, folder / "none").message(),
               scan + ": frame 0: is damaged; no frame can be exported");
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+// The names that "all" stood for are those of the detector, renamed once.
+TEST_F(Run, AScanLabelledWithAllClassesIsExported) {
+    request.scan_file = folder / "a.scan";
+    request.labels = "synthetic";
+    config.labels.classes = "all keyboard=#010203";
+    config.labels.aliases = "cup=mug mug=glass";
+    config.labels.min_observations = 2;
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    EXPECT_GT(run.value().labels->frames, 0);
+    const auto mesh = MeshOfScanFile(request.scan_file, nullptr);
+    ASSERT_TRUE(mesh.ok()) << mesh.message();
+    EXPECT_GT(mesh.value().vertices.size(), 100u);
+    EXPECT_EQ(mesh.value().labels.size(), mesh.value().vertices.size());
 }
 
 }  // namespace

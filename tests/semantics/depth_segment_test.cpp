@@ -155,23 +155,31 @@ TEST(VoteLabels, OnlyTheBandAroundTheSurface) {
     EXPECT_GT(voxels, 500);
 }
 
-// `vote` casts the same claims for all pixels, `times` times, and returns the instance of a voxel
-// in the middle. Each pixel has a first and a second claim on two ballots.
-TEST(VoteLabels, AVoxelsHolderCounts) {
-    BlockMap map(kVoxels);
-    MakeWall(map);
-    const DepthImage depth(160, 120, 1.0f);
-    const std::vector<std::uint16_t> joined{0, 1, 2, 3};
-    const BlockId block = map.Find({0, 0, 12});
-    const VoxelLabel& voxel = map.label(block)[4 * 64];
-    const auto vote = [&](int times, std::uint8_t first, std::uint8_t second,
-                          const std::vector<Ballot>& ballots) {
+// A wall of whose pixels each has a first and a second claim on the ballots.
+struct ClaimedWall {
+    ClaimedWall() { MakeWall(map); }
+    // Casts the same claims for all pixels, and returns the instance of a voxel in the middle.
+    std::uint16_t Vote(int times, std::uint8_t first, std::uint8_t second,
+                       const std::vector<Ballot>& ballots) {
         const LabelImage labels{Image<std::uint8_t>(160, 120, first),
                                 Image<std::uint8_t>(160, 120, second)};
         for (int i = 0; i < times; ++i)
-            VoteLabels(labels, ballots, joined, depth, kCamera, Eigen::Isometry3d::Identity(),
-                       0.0151, map);
-        return voxel.instance;
+            VoteLabels(labels, ballots, holders, DepthImage(160, 120, 1.0f), kCamera,
+                       Eigen::Isometry3d::Identity(), 0.0151, map);
+        return voxel().instance;
+    }
+    const VoxelLabel& voxel() { return map.label(map.Find({0, 0, 12}))[4 * 64]; }
+
+    BlockMap map{kVoxels};
+    std::vector<Holder> holders{{}, {1}, {2}, {3}};
+};
+
+TEST(VoteLabels, AVoxelsHolderCounts) {
+    ClaimedWall wall;
+    const VoxelLabel& voxel = wall.voxel();
+    const auto vote = [&](int times, std::uint8_t first, std::uint8_t second,
+                          const std::vector<Ballot>& ballots) {
+        return wall.Vote(times, first, second, ballots);
     };
     EXPECT_EQ(vote(6, 1, 0, {{5, 1}, {5, 2}}), 1);
     // Claimed by 2, which covers the undetected 1: no change.
@@ -189,6 +197,36 @@ TEST(VoteLabels, AVoxelsHolderCounts) {
     EXPECT_EQ(vote(1, 2, 0, {{}, {5, 2, true}}), 1);
     EXPECT_EQ(vote(1, 2, 0, {{}, {5, 2, true}}), 0);
     EXPECT_EQ(vote(1, 2, 1, {{5, 1, true}, {5, 2}}), 2);
+}
+
+// The pixels lie in the box of a detection, but not on its object.
+TEST(VoteLabels, AMissedObjectInTheBoxOfAnotherKeepsItsVoxels) {
+    ClaimedWall wall;
+    constexpr std::uint8_t kBeside = LabelImage::kBesideObjects;
+    EXPECT_EQ(wall.Vote(6, 1, 0, {{5, 1}}), 1);
+    wall.holders[1].stands = true;
+    EXPECT_EQ(wall.Vote(20, kBeside, 0, {{4, 2}}), 1);
+    EXPECT_EQ(wall.voxel().instance_count, 6);
+    EXPECT_EQ(wall.voxel().count[0], 6);
+    EXPECT_EQ(wall.voxel().count[1], 0);
+    // What the object's own mask does not have is cleaned, as is what no longer stands.
+    EXPECT_EQ(wall.Vote(1, kBeside, 0, {{5, 1}}), 1);
+    EXPECT_EQ(wall.voxel().instance_count, 5);
+    EXPECT_EQ(wall.voxel().count[1], 1);
+    wall.holders[1].stands = false;
+    EXPECT_EQ(wall.Vote(5, kBeside, 0, {{4, 2}}), 0);
+    EXPECT_EQ(wall.voxel().count[1], 6);
+}
+
+TEST(VoteLabels, VotesAfterAJoinCountForTheVoxelsOfBoth) {
+    ClaimedWall wall;
+    EXPECT_EQ(wall.Vote(6, 1, 0, {{5, 1}}), 1);
+    wall.holders[1] = {2};
+    EXPECT_EQ(wall.Vote(3, 1, 0, {{5, 2}}), 2);
+    EXPECT_EQ(wall.voxel().instance_count, 9);
+    wall.holders[1] = wall.holders[2] = {};  // dropped
+    EXPECT_EQ(wall.Vote(1, 1, 0, {{5, 3}}), 3);
+    EXPECT_EQ(wall.voxel().instance_count, 1);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ Instances TwoObjects(const std::vector<std::uint64_t>& first,
 }
 
 int NumberOfClass(const Instances& instances, int class_id) {
-    for (InstanceId id = 1; id <= instances.last(); ++id)
+    for (const InstanceId id : instances.ids())
         if (instances.ClassOf(id) == class_id) return instances.record(id).public_id;
     return 0;
 }

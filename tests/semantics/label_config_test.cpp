@@ -85,6 +85,44 @@ TEST(LabelClasses, NamesOfAnotherDetector) {
     EXPECT_EQ(LabelClasses::Make(config, known).value().count(), 3);
 }
 
+// The default aliases rename televisions, but here they are what is asked for.
+TEST(LabelClasses, ANameThatIsAskedForIsNotRenamed) {
+    LabelConfig config;
+    config.classes = "tv computer";
+    const auto classes = LabelClasses::Make(config, {"tv", "monitor", "cup"});
+    ASSERT_TRUE(classes.ok()) << classes.message();
+    EXPECT_EQ(classes.value().IdOf("tv"), 1);
+    EXPECT_EQ(classes.value().IdOf("monitor"), 2);
+    EXPECT_EQ(classes.value().aliases(),
+              (ClassAliases{{"tvmonitor", "computer"}, {"monitor", "computer"}}));
+    config.classes = "tv";
+    EXPECT_TRUE(LabelClasses::Make(config, {"tv", "cup"}).ok());
+    config.classes = "all tv=#010203";
+    const LabelClasses all = LabelClasses::Make(config, {"tv", "monitor", "cup"}).value();
+    EXPECT_EQ(all.count(), 3);  // tv, computer, cup
+    EXPECT_EQ(all.colour(all.IdOf("tv")), (Rgb8{1, 2, 3}));
+    config.classes = "computer";
+    config.dynamic = "tv";
+    EXPECT_TRUE(LabelClasses::Make(config, {"tv", "monitor"}).value().IsDynamic("tv"));
+}
+
+TEST(LabelClasses, WhatCannotBeFoundIsTold) {
+    LabelConfig config;
+    const auto warning = [&](const std::vector<std::string>& known) {
+        return WarningOf(config, LabelClasses::Make(config, known).value());
+    };
+    EXPECT_EQ(warning({"cup"}), "");  // the default list
+    config.classes = "sofa=#010203 cup book person";
+    EXPECT_EQ(warning({"couch", "cup", "person"}),
+              "labels.classes: the detector does not know, or labels.dynamic takes: sofa, book, "
+              "person");
+    EXPECT_EQ(warning({"sofa", "cup", "book"}), warning({}));
+    config.dynamic = "";
+    EXPECT_EQ(warning({"sofa", "cup", "book", "person"}), "");
+    config.classes = "all";
+    EXPECT_EQ(warning({"cup", "person"}), "");
+}
+
 TEST(LabelClasses, WhatTheDetectorCanFind) {
     LabelConfig config;
     config.classes = "cup computer book person";

@@ -141,7 +141,7 @@ TEST_F(LiveMappingTest, AFrameThatWaitedWhenTheDetectorFailedOnlyComesBack) {
     EXPECT_EQ(failure.job.map.world, 0);
     EXPECT_EQ(unseen.message, "");
     EXPECT_EQ(unseen.job.frame->index, 1);
-    EXPECT_EQ(unseen.job.map.world, -1);
+    EXPECT_FALSE(unseen.looked_at);
     EXPECT_TRUE(labelling.stopped());
     EXPECT_NE(offer(2), nullptr);
 }
