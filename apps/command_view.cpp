@@ -63,9 +63,9 @@ Result<Files> FindFiles(const ViewRequest& a) {
             fmt::format("{}: has no mesh.ply, so it is not the folder of a run; to view a source, "
                         "use: tessera run {} --view",
                         a.path, ShellLine({a.path})));
-    if (files.trajectory.empty() && fs::exists(folder / "trajectory.txt", ignored)) {
-        files.trajectory = (folder / "trajectory.txt").string();
+    if (fs::exists(folder / "trajectory.txt", ignored)) {
         files.run = a.path;
+        if (files.trajectory.empty()) files.trajectory = (folder / "trajectory.txt").string();
     }
     if (fs::exists(folder / "objects.json", ignored))
         files.objects = (folder / "objects.json").string();
@@ -100,16 +100,28 @@ FrameImages::Open SourceOf(const RunRecord& run) {
     return [run] { return OpenSourceOf(run); };
 }
 
-// As `tessera finish PATH --out MODEL`. Beside a scan file NAME.scan, MODEL is NAME_model.
+// `folder`, or with "_2" and so on, so that no finished model is in it.
+std::string WithoutAModel(const std::string& folder) {
+    std::string free = folder;
+    std::error_code ignored;
+    for (int i = 2;
+         fs::exists(free + "/model.glb", ignored) || fs::exists(free + "/model.obj", ignored);)
+        free = fmt::format("{}_{}", folder, i++);
+    return free;
+}
+
+// As `tessera finish PATH --out MODEL`. Beside a scan file NAME.scan, MODEL is NAME_model. A model
+// that is there already is kept: the new one is in MODEL_2, and so on.
 BackgroundJob::Work FinishOf(const std::string& path) {
     return [path](const BackgroundJob::Progress& progress) -> Result<std::string> {
-        const std::string out = fs::is_directory(path)
-                                    ? (fs::path(path) / "model").string()
-                                    : fs::path(path).replace_extension().string() + "_model";
+        const std::string model = fs::is_directory(path)
+                                      ? (fs::path(path) / "model").string()
+                                      : fs::path(path).replace_extension().string() + "_model";
         FinishRequest request;
         request.input = path;
         const Result<FinishedModel> finished = FinishRun(request, progress);
         if (!finished.ok()) return finished.status();
+        const std::string out = WithoutAModel(model);
         if (Status status = PrepareOutputFolder(out); !status.ok()) return status;
         if (Status status = WriteFinishedModel(out, finished.value(), false); !status.ok())
             return status;
@@ -132,6 +144,10 @@ Status View(const ViewRequest& a, const CommandContext& context) {
         model.value().finish = FinishOf(a.path);
     options.window = context.window;
     options.title = a.path;
+    std::error_code ignored;
+    options.output_folder =
+        fs::is_directory(a.path, ignored) ? a.path : fs::path(a.path).parent_path().string();
+    if (options.output_folder.empty()) options.output_folder = ".";
     options.measurements = MeasurementsFile(a.path);
     options.screen.width = a.width;
     options.screen.height = a.height;

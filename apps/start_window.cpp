@@ -5,6 +5,7 @@
 #include "command.h"
 #include "io/openni_devices.h"
 #include "models_beside.h"
+#include "run/earlier_run.h"
 #include "run/examine_path.h"
 #include "viz/recent_paths.h"
 #include "viz/start_screen.h"
@@ -19,6 +20,7 @@ StartServices Services() {
         return PathFinding{found.can_run, found.can_view, found.failed, found.text};
     };
     services.list_cameras = ListOpenniDevices;
+    services.keeps_run = HoldsCameraRun;
     services.models = ModelsBeside("");
     services.recent_file = RecentFile();
     return services;

@@ -186,6 +186,7 @@ class RestlessUser {
         bool changed = false;
         if (Sometimes(5, "switches of the tracker")) {
             settings_.method = kTrackingMethods[random_() % kTrackingMethods.size()].method;
+            ++settings_.method_choices;
             changed = true;
         }
         if (settings_.fusing ? Sometimes(30, "times without fusion")

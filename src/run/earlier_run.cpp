@@ -29,11 +29,14 @@ std::vector<std::string> ResultsIn(const std::string& folder) {
     return files;
 }
 
-Result<std::string> KeepEarlierRun(const std::string& folder) {
+bool HoldsCameraRun(const std::string& folder) {
     const Result<RunRecord> run = ReadRunRecord(folder + "/run.json");
-    if (!run.ok() || !IsLiveSource(run.value().source_name)) return std::string();
-    const Result<Trajectory> path = ReadTrajectory(folder + "/trajectory.txt");
-    if (!path.ok()) return std::string();  // no pose in it, for one
+    if (!run.ok() || !IsLiveSource(run.value().source_name)) return false;
+    return ReadTrajectory(folder + "/trajectory.txt").ok();  // not without a pose, for one
+}
+
+Result<std::string> KeepEarlierRun(const std::string& folder) {
+    if (!HoldsCameraRun(folder)) return std::string();
     std::error_code error;
     std::string kept;
     for (int number = 1; kept.empty(); ++number) {

@@ -56,7 +56,8 @@ class FrameTracking {
     void Track(const Frame& frame, const BlockMap& map, TrackedFrame& tracked) {
         plan_.Track(frame, map, stage_, tracked);
         gate_.AfterTracking(frame, stage_, tracked);
-        if (parts_ > 0 && tracked.report.first) tracked.report.warning = kPartBegins;
+        tracked.report.begins_part = parts_ > 0 && tracked.report.first;
+        if (tracked.report.begins_part) tracked.report.warning = kPartBegins;
     }
     // When the frame's pose and status are final.
     void End(const TrackedFrame& tracked) { watch_.Add(tracked); }

@@ -41,6 +41,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     report.index = frame.index;
     report.stamp_s = frame.stamp_s;
     report.method = trackers_.method();
+    report.method_choices = method_choices_;
 
     // 1. Gate the depth and prepare the colour. What moved in earlier frames must not influence
     // the pose, nor must the colours of a camera that hangs.

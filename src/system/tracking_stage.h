@@ -25,8 +25,10 @@ struct FrameReport {
     std::int64_t index = 0;
     double stamp_s = 0;
     TrackingMethod method = TrackingMethod::kSdf;
-    TrackResult track;   // with given poses: status good and the given pose
-    bool first = false;  // the frame that started the map
+    int method_choices = 0;  // of the newest ViewerSettings that this frame heeds
+    TrackResult track;       // with given poses: status good and the given pose
+    // The frame that started the map, or, if begins_part, a new part of the scan in the same map.
+    bool first = false, begins_part = false;
     bool fused = false;
     double valid_depth_fraction = 0;  // of the image, without what was expected to move
     std::string warning;              // for the user; usually empty
@@ -130,6 +132,7 @@ class TrackingStage {
     MovingDetector moving_;
     BackendOf backend_;
     Trackers trackers_;
+    int method_choices_ = 0;  // of the newest settings
     bool fusing_ = true, only_track_ = false, keep_images_ = false;
 };
 

@@ -4,7 +4,8 @@
 namespace tessera {
 
 void TrackingStage::Apply(const ViewerSettings& settings) {
-    trackers_.Select(settings.method);
+    if (settings.method_choices != method_choices_) trackers_.Select(settings.method);
+    method_choices_ = settings.method_choices;
     trackers_.Select(settings.prediction);
     trackers_.SetAlpha(settings.auto_alpha, settings.alpha);
     config_.frame.max_depth_m = settings.max_depth_m;

@@ -11,6 +11,9 @@ namespace tessera {
 
 struct ViewerSettings {
     TrackingMethod method = TrackingMethod::kSdf;
+    // How often the user has chosen a method. It counts only if this differs from the settings
+    // before, because the run itself may have switched the method meanwhile.
+    int method_choices = 0;
     bool auto_alpha = true;
     double alpha = 0.03;     // m^2, unless auto_alpha
     double max_depth_m = 5;  // farther measurements are ignored

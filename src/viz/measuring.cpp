@@ -1,6 +1,7 @@
 #include "viz/measuring.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "io/file.h"
 
@@ -28,6 +29,7 @@ void Measuring::Toggle() {
 }
 
 void Measuring::Click(const Eigen::Vector3d& p_world, bool on_first, bool raise) {
+    cleared_.clear();
     if (raise && !all_.empty() && all_.back().closed) {
         all_.back().top = p_world;
         return Changed();
@@ -47,7 +49,11 @@ void Measuring::Click(const Eigen::Vector3d& p_world, bool on_first, bool raise)
 }
 
 void Measuring::TakeBack() {
-    if (all_.empty()) return;
+    if (all_.empty()) {
+        if (cleared_.empty()) return;
+        all_ = std::exchange(cleared_, {});
+        return Changed();
+    }
     Measurement& m = all_.back();
     if (m.top) {
         m.top.reset();
@@ -69,8 +75,9 @@ void Measuring::Finish() {
 }
 
 void Measuring::Clear() {
-    all_.clear();
-    is_open_ = false;
+    Finish();
+    if (all_.empty()) return;
+    cleared_ = std::exchange(all_, {});
     Changed();
 }
 

@@ -20,11 +20,12 @@ class Measuring {
     // A click on the surface: the next corner; on the first corner (`on_first`), the line becomes a
     // polygon. `raise`: if the last measurement is a polygon, its body ends at this height.
     void Click(const Eigen::Vector3d& p_world, bool on_first, bool raise);
-    // Takes the last click back, of whichever measurement is the last one.
+    // Takes the last click back, of whichever measurement is the last one. After Clear, until the
+    // next click: brings all of them back.
     void TakeBack();
     // The next click begins another measurement.
     void Finish();
-    void Clear();
+    void Clear();  // ends the line, and takes all away
 
     const std::vector<Measurement>& all() const { return all_; }
     // The one that the next click goes on with; null: it begins another.
@@ -35,7 +36,7 @@ class Measuring {
   private:
     void Changed();
 
-    std::vector<Measurement> all_;
+    std::vector<Measurement> all_, cleared_;
     bool on_ = false, is_open_ = false, may_save_ = false;
     std::uint64_t changes_ = 0;
     std::string file_, trouble_;

@@ -23,7 +23,7 @@ void DrawMethods(ViewerState& state) {
         if (number++ % kColumns != 0) ImGui::SameLine();
         const std::string name = fmt::format("method.{}", info.name);
         if (MarkedButton(state.controls, name.c_str(), info.label, width,
-                         state.settings.method == info.method))
+                         state.method() == info.method))
             state.SelectMethod(info.method);
         Tip(fmt::format("{}  ({})", info.tip, number).c_str());
     }

@@ -98,8 +98,10 @@ bool ClickToMeasure(ViewerState& state, const SceneView& scene, const ControlRec
         io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] > kStill_px * kStill_px)
         return false;
     const auto p = NearPoint(scene, pixel.x(), pixel.y());
+    // Beside the surface, too, where the click makes an area.
     bool on_first = false;
-    if (const Measurement* const open = state.measuring.open()) {
+    const Measurement* const open = state.measuring.open();
+    if (open && open->corners.size() >= 3) {
         const auto first = At(scene, area, open->corners.front());
         on_first =
             first && std::hypot(first->x - io.MousePos.x, first->y - io.MousePos.y) < Scaled(9);
@@ -141,6 +143,7 @@ void DrawMeasureTool(ViewerState& state) {
     Tip("The next click begins another measurement  (Enter)");
     ImGui::SameLine();
     if (MarkedButton(state.controls, "measure.clear", "Clear all", Scaled(80))) measuring.Clear();
+    Tip("Take back, or Backspace, brings them back until the next click");
 }
 
 }  // namespace tessera

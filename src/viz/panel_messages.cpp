@@ -1,4 +1,7 @@
-// The list of messages, scrolled to the newest at the bottom.
+// The list of messages, scrolled to the newest at the bottom; and the newest one alone, where there
+// is no list.
+#include <algorithm>
+
 #include "viz/panels.h"
 #include "viz/widgets.h"
 
@@ -18,6 +21,22 @@ void DrawMessagesPanel(const ViewerState& state) {
     if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - Scaled(20)) ImGui::SetScrollHereY(1);
     ImGui::PopStyleVar();
     ImGui::EndChild();
+}
+
+void DrawNote(ViewerState& state, const ControlRect& area, float inset_width) {
+    const std::string* const text = state.note();
+    if (text == nullptr) return;
+    ImFont* const font = ImGui::GetFont();
+    const float pad = Scaled(10), side = std::max(inset_width, Scaled(190)) + 2 * pad;
+    const float room = std::max(area.width - 2 * side, Scaled(160));
+    const ImVec2 extent = font->CalcTextSizeA(font->FontSize, room, room, text->c_str());
+    const ImVec2 to{area.x + (area.width + extent.x) / 2 + pad, area.y + area.height - Scaled(14)};
+    const ImVec2 from{to.x - extent.x - 2 * pad, to.y - extent.y - 1.4f * pad};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(from, to, IM_COL32(14, 16, 19, 215), Scaled(6));
+    list.AddText(font, font->FontSize, {from.x + pad, from.y + 0.7f * pad}, palette::kText,
+                 text->c_str(), nullptr, room);
+    state.controls.Mark("message", {from.x, from.y, to.x - from.x, to.y - from.y});
 }
 
 }  // namespace tessera

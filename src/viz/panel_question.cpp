@@ -5,7 +5,10 @@
 namespace tessera {
 
 void DrawResetQuestion(ViewerState& state) {
-    if (!state.ask_reset) return;
+    if (!state.ask_reset) {  // perhaps answered by a key: what is left open would take all others
+        if (ImGui::IsPopupOpen("Reset")) ImGui::SetWindowFocus(nullptr);
+        return;
+    }
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::OpenPopup("Reset");

@@ -76,10 +76,18 @@ void DrawOutput(StartState& state) {
                                  state.typed_output.size()))
         state.Changed();
     state.controls.MarkLast("output");
-    if (state.replaces_run())
-        DrawWrapped(palette::kWarning, "This folder holds a run, which will be replaced.");
-    else
-        DrawWrapped(palette::kDim, "A folder for the surface, the path and the figures.");
+    switch (state.earlier_run()) {
+        case StartState::EarlierRun::kNone:
+            return DrawWrapped(palette::kDim,
+                               "A folder for the surface, the path and the figures.");
+        case StartState::EarlierRun::kReplaced:
+            return DrawWrapped(palette::kWarning,
+                               "This folder holds a run, which will be replaced.");
+        case StartState::EarlierRun::kKept:
+            return DrawWrapped(palette::kWarning,
+                               "This folder holds a camera's run. It is kept: its results will be "
+                               "moved to earlier_1, or the next free number, inside.");
+    }
 }
 
 }  // namespace

@@ -33,11 +33,13 @@ void DrawStates(ImDrawList& list, const TimeLine& line, const ImVec2& at, const 
     const std::size_t count = line.frames.size();
     const auto columns = static_cast<std::size_t>(std::max(size.x, 1.0f));
     for (std::size_t column = 0; column < columns; ++column) {
-        const std::size_t begin = column * (count - 1) / columns,
-                          end = std::max((column + 1) * (count - 1) / columns, begin + 1);
+        // The last frame stands where the rail ends: in the last column.
+        const std::size_t begin = column * (count - 1) / columns;
+        const std::size_t end = column + 1 == columns
+                                    ? count
+                                    : std::max((column + 1) * (count - 1) / columns, begin + 1);
         FrameState worst = FrameState::kFused;
-        for (std::size_t i = begin; i < std::min(end, count); ++i)
-            worst = std::max(worst, line.frames[i].row.state);
+        for (std::size_t i = begin; i < end; ++i) worst = std::max(worst, line.frames[i].row.state);
         if (worst == FrameState::kFused) continue;
         const float x = at.x + static_cast<float>(column);
         list.AddRectFilled({x, at.y}, {x + 1, at.y + size.y}, ColourOfFrame(worst));

@@ -66,7 +66,7 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
     ImGui::SetItemAllowOverlap();  // so that the buttons over it get input
     state.controls.MarkLast("view");
     const bool by_hand = HandlePointer(state, scene, area);
-    if (state.view.keep_all) scene.ViewAll();
+    if (state.view.keep_all) scene.ViewAll(state);
     const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
     const bool drawn =
         scene.Draw(state, {.width = std::max(static_cast<int>(area.width * scale.x), 1),
@@ -86,6 +86,7 @@ bool DrawViewPanel(ViewerState& state, SceneView& scene, const ViewPanelFrame& f
         DrawOverlays(state, scene, area, area.x + area.width - frame.inset_width);
     if (state.view_kind == ViewKind::kExpert) DrawToolbar(state, area);
     DrawTools(state, scene, area);
+    if (!frame.smooth) DrawNote(state, area, frame.inset_width);  // pictures are without it
     return drawn;
 }
 

@@ -17,6 +17,8 @@ void DrawDetectorPanel(ViewerState& state);                        // inside the
 // Inside the left column; a click centres the view on an object.
 void DrawObjectsPanel(ViewerState& state, SceneView& scene);
 void DrawMessagesPanel(const ViewerState& state);  // rest of the left column
+// The newest message over the 3D view, which fills `area`, between what stands at its sides.
+void DrawNote(ViewerState& state, const ControlRect& area, float inset_width);
 void DrawPlotsPanel(const ViewerState& state, const ControlRect& area);
 // Drawn over everything, while active.
 void DrawHelp(ViewerState& state);

@@ -50,6 +50,9 @@ Quality OfGoodFrame(const QualitySigns& s) {
                     " of the frames were not added to the map in the last 2 s"};
     if (s.detector_failed)
         return {Level::kWarning, "Labelling has failed", "the messages say why; the scan goes on"};
+    if (report.begins_part)
+        return {Level::kGood, "A new part",
+                "of the scan begins; it is joined when a place of the rest is seen"};
     if (report.first) return {Level::kGood, "Started", "the map begins with this frame"};
     return {Level::kGood, "Good",
             report.fused ? "tracked and added to the map" : "tracked, not added to the map"};

@@ -5,9 +5,9 @@
 namespace tessera {
 
 void RecentFrames::Add(const FrameUpdate& update, double now_s) {
-    if (update.report.first) {
+    if (update.report.first) places_.clear();
+    if (update.report.first && !update.report.begins_part) {
         arrivals_.clear();
-        places_.clear();
         before_ = {};
     }
     arrivals_.push_back({now_s, update.counts});

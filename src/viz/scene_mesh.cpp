@@ -9,8 +9,9 @@ namespace tessera {
 void SceneMesh::SetModel(const ViewedModel& model, const Eigen::Vector3d& up) {
     model_.Set(model.mesh, model.mesh.labels.empty() ? std::vector<Rgb8>()
                                                      : CategoryColours(model.mesh, model.objects));
-    for (const Eigen::Vector3f& vertex : model.mesh.vertices)
-        surface_->bounds.extend(vertex.cast<double>());
+    Eigen::AlignedBox3d bounds;
+    for (const Eigen::Vector3f& vertex : model.mesh.vertices) bounds.extend(vertex.cast<double>());
+    if (!bounds.isEmpty()) surface_->bounds.Extend(bounds);
     surface_->up = UpEstimator(up);
     for (const Eigen::Vector3f& normal : model.mesh.normals) surface_->up.Add(normal);
 }
@@ -55,8 +56,8 @@ std::size_t SceneMesh::Upload(std::size_t most_bytes) {
         surface_->up.Add(block.geometry);
         const double side_m = kBlockSide * pending_.voxel_size_m;
         const Eigen::Vector3d corner(block.coord.x, block.coord.y, block.coord.z);
-        surface_->bounds.extend(corner * side_m);
-        surface_->bounds.extend((corner + Eigen::Vector3d::Ones()) * side_m);
+        surface_->bounds.Extend(
+            {corner * side_m, (corner + Eigen::Vector3d::Ones()).eval() * side_m});
     }
     const auto taken = std::span(pending_.blocks).subspan(first, pending_done_ - first);
     surface_->store.Replace(pending_.voxel_size_m, taken);

@@ -9,6 +9,7 @@
 #include "render/gl_mesh_store.h"
 #include "render/gl_triangle_mesh.h"
 #include "viz/coverage.h"
+#include "viz/surface_bounds.h"
 #include "viz/up_estimator.h"
 #include "viz/viewer.h"
 
@@ -28,7 +29,7 @@ class SceneMesh {
     // `location`: of the uniform clip_from_position.
     void Draw(const Eigen::Matrix4d& clip, const Eigen::Isometry3d& T_world_view, int location);
 
-    const Eigen::AlignedBox3d& bounds() const { return shown().bounds; }  // metres
+    const SurfaceBounds& bounds() const { return shown().bounds; }
     // Empty while too few surfaces agree.
     std::optional<Eigen::Vector3d> Up() const { return shown().up.Up(); }
     const Coverage& coverage() const { return shown().coverage; }  // of the meshes from the link
@@ -39,7 +40,7 @@ class SceneMesh {
         explicit Surface(const CoverageLevels& levels) : coverage(levels) {}
 
         GlMeshStore store;
-        Eigen::AlignedBox3d bounds;
+        SurfaceBounds bounds;
         UpEstimator up{{0, -1, 0}};
         Coverage coverage;
     };

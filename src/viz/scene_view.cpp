@@ -4,6 +4,7 @@
 
 #include "render/mesh_picture.h"
 #include "render/projection.h"
+#include "viz/cut_plane.h"
 #include "viz/gl_lines.h"
 #include "viz/measure_lines.h"
 #include "viz/mesh_program.h"
@@ -36,8 +37,8 @@ struct SceneView::Impl {
     };
     void StandUpright();
     bool ChoicesChanged(const ViewerState& state, const Request& request) const;
-    std::optional<Eigen::Vector4d> CutPlane(const ViewChoices& view) const;
     void DrawMesh(const ViewerState& state, const PinholeCamera& pinhole);
+    void DrawDepth(const ViewerState& state, const PinholeCamera& pinhole);
     void DrawPaths(const ViewerState& state, const PinholeCamera& pinhole);
 
     bool is_software;
@@ -83,7 +84,7 @@ void SceneView::SetModel(const ViewedModel& model) {
     impl_->camera.SetUp(impl_->mesh.Up().value_or(up));
     const Eigen::Vector3d eye = view.T_world_camera.translation(),
                           forward = view.T_world_camera.linear().col(2);
-    const double ahead = std::max((impl_->mesh.bounds().center() - eye).dot(forward), 0.1);
+    const double ahead = std::max((impl_->mesh.bounds().All().center() - eye).dot(forward), 0.1);
     impl_->camera.Place(eye, eye + ahead * forward);
     impl_->changed = true;
 }
@@ -123,17 +124,8 @@ bool SceneView::Follow(const ViewerState& state, double since_s) {
     return (impl_->camera.eye() - before).norm() > 1e-3;
 }
 
-void SceneView::ViewAll() {
-    Impl& s = *impl_;
-    const Eigen::AlignedBox3d& bounds = s.mesh.bounds();
-    if (bounds.isEmpty()) return;
-    const Eigen::Vector3d from = s.camera.T_world_camera().linear().col(2);
-    // Ignores small changes, or the view would never rest while the mesh grows.
-    const double distance_m = 0.76 * bounds.diagonal().norm();
-    if ((s.camera.target() - bounds.center()).norm() < 0.03 * distance_m &&
-        std::abs(s.camera.distance_m() - distance_m) < 0.03 * distance_m)
-        return;
-    s.camera.Place(bounds.center() - distance_m * from, bounds.center());
+void SceneView::ViewAll(const ViewerState& state) {
+    impl_->camera.ShowAll(impl_->mesh.bounds().Around(state.system.place()));
 }
 
 bool SceneView::Impl::ChoicesChanged(const ViewerState& state, const Request& request) const {
@@ -157,25 +149,24 @@ bool SceneView::Draw(const ViewerState& state, const Request& request) {
     s.drawn = {s.camera.T_world_camera(), state.view, state.shading(), request};
     const PinholeCamera pinhole = ViewCamera::Camera(request.width, request.height);
     s.target.Begin(request.width, request.height, request.smooth || !s.is_software ? 4 : 1);
+    if (state.view.depth_test) glEnable(GL_DEPTH_TEST);
     s.DrawMesh(state, pinhole);
     s.DrawPaths(state, pinhole);
+    if (!state.view.depth_test) s.DrawDepth(state, pinhole);
     s.target.End();
     return true;
 }
 
-// (n, d): points with n^T p + d < 0 are hidden; world frame, metres.
-std::optional<Eigen::Vector4d> SceneView::Impl::CutPlane(const ViewChoices& view) const {
-    if (view.cut == Cut::kNone || mesh.bounds().isEmpty()) return std::nullopt;
-    const Eigen::Vector3d towards = view.cut == Cut::kAbove ? camera.up() : view.cut_towards;
-    const Eigen::Vector3d half = 0.5 * mesh.bounds().sizes();
-    const double middle = towards.dot(mesh.bounds().center()), reach = towards.cwiseAbs().dot(half);
-    constexpr double kBeyond = 1.05;  // so that the slider's ends are clearly outside
-    const double at = middle + kBeyond * (2 * view.cut_at - 1) * reach;
-    return Eigen::Vector4d(-towards.x(), -towards.y(), -towards.z(), at);
+// Only the depth, for clicks on a surface that one sees through.
+void SceneView::Impl::DrawDepth(const ViewerState& state, const PinholeCamera& pinhole) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glEnable(GL_DEPTH_TEST);
+    DrawMesh(state, pinhole);
+    glDisable(GL_DEPTH_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pinhole) {
-    if (state.view.depth_test) glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
@@ -185,7 +176,8 @@ void SceneView::Impl::DrawMesh(const ViewerState& state, const PinholeCamera& pi
     if (state.view.wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     const Eigen::Isometry3d& T_world_view = drawn.T_world_view;
     const Eigen::Matrix4d clip = ClipFromCamera(pinhole, kNearM, kFarM);
-    const std::optional<Eigen::Vector4d> cut = CutPlane(state.view);
+    const std::optional<Eigen::Vector4d> cut =
+        CutPlane(state.view, mesh.bounds().Around(state.system.place()), camera.up());
     MeshProgram::Look look{drawn.shading, levels};
     if (cut) {
         // A plane is a row vector: points go by a matrix, planes by its inverse.

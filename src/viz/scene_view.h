@@ -26,8 +26,9 @@ class SceneView {
     bool TakeMesh(ViewerLink& link, std::size_t most_bytes);
     // Moves the camera behind the sensor if following is on. True if it moved.
     bool Follow(const ViewerState& state, double since_s);
-    // Moves the camera so that all of the mesh is visible, keeping the direction.
-    void ViewAll();
+    // Moves the camera so that all of the mesh is visible, or of the part of the scan where the
+    // sensor was last, keeping the direction.
+    void ViewAll(const ViewerState& state);
 
     // Draws if anything differs from the last picture. Changes by the user (`by_hand`, a choice,
     // the size) are drawn at once, changes by the system only if `may_redraw`. True if it drew.

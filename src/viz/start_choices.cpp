@@ -56,9 +56,13 @@ std::string SourceOf(const StartChoices& choices) {
     return "";
 }
 
+std::string OutputFolderOf(const StartChoices& choices) {
+    return AsArgument(choices.output_folder);
+}
+
 std::vector<std::string> RunWords(const StartChoices& choices) {
     std::vector<std::string> words{
-        "tessera", "run", SourceOf(choices), "--out", AsArgument(choices.output_folder), "--view"};
+        "tessera", "run", SourceOf(choices), "--out", OutputFolderOf(choices), "--view"};
     const auto add = [&](const char* option, const std::string& value) {
         words.push_back(option);
         words.push_back(value);

@@ -39,6 +39,8 @@ const std::vector<DemoScene>& DemoScenes();
 // The argument SOURCE of the run, or PATH of what is shown, with the home folder for "~"; empty:
 // nothing is chosen yet.
 std::string SourceOf(const StartChoices& choices);
+// The argument DIR of the run, in the same way.
+std::string OutputFolderOf(const StartChoices& choices);
 // The words of "tessera run SOURCE --out DIR --view ...": a setting that is the program's default
 // is left out.
 std::vector<std::string> RunWords(const StartChoices& choices);

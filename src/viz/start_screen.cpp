@@ -4,6 +4,7 @@
 
 #include "core/stopwatch.h"
 #include "viz/start_state.h"
+#include "viz/widgets.h"
 #include "viz/window.h"
 
 namespace tessera {
@@ -77,7 +78,7 @@ void StartScreen::Impl::Iterate() {
     if (input || news) rounds_to_draw = kStartSettlingRounds;
     if (now_s - drawn_at_s > kStartLongest_s && rounds_to_draw == 0) rounds_to_draw = 1;
     for (const Window::Key& key : window->TakeKeys())
-        if (!ImGui::GetIO().WantTextInput) state.OnKey(key.key);
+        if (!TakesKey(key.key)) state.OnKey(key.key);
     if (rounds_to_draw == 0 || window->is_minimised()) return;
     if (options.wait_s > 0 && now_s - drawn_at_s < kStartFramePeriod_s) return;
     --rounds_to_draw;

@@ -25,10 +25,13 @@ struct PathFinding {
     std::string text;
 };
 
-// What the screen asks the program for. The functions are called on threads of the screen's own.
+// What the screen asks the program for. The first two are called on threads of the screen's own.
 struct StartServices {
     std::function<PathFinding(const std::string& path)> examine;
     std::function<OpenniListing()> list_cameras;
+    // Whether the run in this folder is moved aside when the next is written there; empty: it is
+    // replaced.
+    std::function<bool(const std::string& folder)> keeps_run = {};
     std::vector<std::string> models;  // detection networks to choose from
     std::string recent_file;          // RecentFile(); empty: nothing is remembered
 };

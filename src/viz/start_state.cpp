@@ -69,9 +69,13 @@ void StartState::ShowPage(StartPage page) {
 void StartState::Changed() {
     error.clear();
     choices.output_folder = typed_output.data();
+    const std::string folder = OutputFolderOf(choices);
     std::error_code ignored;
-    replaces_run_ =
-        std::filesystem::exists(std::filesystem::path(choices.output_folder) / "run.json", ignored);
+    if (!std::filesystem::exists(std::filesystem::path(folder) / "run.json", ignored))
+        earlier_run_ = EarlierRun::kNone;
+    else
+        earlier_run_ = services.keeps_run && services.keeps_run(folder) ? EarlierRun::kKept
+                                                                        : EarlierRun::kReplaced;
 }
 
 PathFinding StartState::finding() const {
@@ -105,7 +109,7 @@ void StartState::Start() {
         return;
     }
     decision = RunWords(choices);
-    AddRecentPath(services.recent_file, choices.output_folder);
+    AddRecentPath(services.recent_file, OutputFolderOf(choices));
     if (choices.page == StartPage::kFiles) AddRecentPath(services.recent_file, SourceOf(choices));
 }
 

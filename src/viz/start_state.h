@@ -17,6 +17,10 @@ namespace tessera {
 // Owner thread only.
 class StartState {
   public:
+    // The run that the output folder holds: none; one that the next run replaces; a camera's, which
+    // the next run moves to earlier_1 and so on inside it.
+    enum class EarlierRun { kNone, kReplaced, kKept };
+
     explicit StartState(StartServices given);
 
     // Takes what the threads have found. True if there was anything.
@@ -39,7 +43,7 @@ class StartState {
     PathFinding finding() const;
     bool can_start() const { return !opening && decision.empty() && finding().can_run; }
     bool can_open() const { return !opening && decision.empty() && finding().can_view; }
-    bool replaces_run() const { return replaces_run_; }  // the output folder holds one
+    EarlierRun earlier_run() const { return earlier_run_; }
     void Start();
     void Open();
     // The command line of the more likely of the two, as words; empty: neither is possible.
@@ -60,7 +64,7 @@ class StartState {
     std::string folder_ = ".";
     FolderList list_;
     std::vector<std::string> recent_;
-    bool replaces_run_ = false;
+    EarlierRun earlier_run_ = EarlierRun::kNone;
     StartLookup lookup_;
 };
 

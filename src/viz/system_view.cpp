@@ -60,6 +60,7 @@ void SystemView::SetObjects(std::vector<MapObject> objects) {
 }
 
 void SystemView::Say(const std::string& text) {
+    ++messages_said_;
     messages_.push_back(text);
     if (messages_.size() > kMostMessages) messages_.pop_front();
 }
@@ -67,7 +68,7 @@ void SystemView::Say(const std::string& text) {
 void SystemView::Add(FrameUpdate&& update, double now_s) {
     const FrameReport& report = update.report;
     recent_.Add(update, now_s);
-    if (report.first) {
+    if (report.first && !report.begins_part) {
         path_.clear();
         truth_.clear();
         ++path_identity_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,11 @@ class SystemView {
     double fps() const { return fps_; }  // over the last seconds
     const std::vector<PathPoint>& path() const { return path_; }
     const std::vector<PathPoint>& truth() const { return truth_; }
+    // Where the camera was last; empty before the first pose.
+    std::optional<Eigen::Vector3d> place() const {
+        if (path_.empty()) return std::nullopt;
+        return path_.back().position_m.cast<double>();
+    }
     // Changes when the paths start over.
     std::uint64_t path_identity() const { return path_identity_; }
     const ImageUpdate& images() const { return images_; }  // `frame` is null before the first one
@@ -56,6 +62,7 @@ class SystemView {
     const RecentFrames& recent() const { return recent_; }
     const History& history() const { return history_; }
     const std::deque<std::string>& messages() const { return messages_; }  // oldest first
+    std::uint64_t messages_said() const { return messages_said_; }
 
   private:
     bool TakeLabels(ViewerLink& link, double now_s);
@@ -78,6 +85,7 @@ class SystemView {
     RecentFrames recent_;
     History history_;
     std::deque<std::string> messages_;
+    std::uint64_t messages_said_ = 0;
 };
 
 }  // namespace tessera

@@ -61,6 +61,15 @@ void ViewCamera::Zoom(double factor) {
     follow_scale_ = std::clamp(follow_scale_ * factor, 0.1, 20.0);
 }
 
+void ViewCamera::ShowAll(const Eigen::AlignedBox3d& box) {
+    if (box.isEmpty()) return;
+    const double wanted_m = 0.76 * box.diagonal().norm();
+    if ((target_ - box.center()).norm() < 0.03 * wanted_m &&
+        std::abs(distance_m_ - wanted_m) < 0.03 * wanted_m)
+        return;
+    Place(box.center() - wanted_m * T_world_camera().linear().col(2), box.center());
+}
+
 void ViewCamera::Follow(const Eigen::Isometry3d& T_world_sensor, double since_s) {
     const Eigen::Vector3d sensor = T_world_sensor.translation(),
                           forward = T_world_sensor.linear().col(2);

@@ -28,6 +28,9 @@ class ViewCamera {
     void Pan(double right_px, double down_px, double height_px);
     // Multiplies the distance to the target by this factor, limited to 5 cm to 500 m.
     void Zoom(double factor);
+    // Moves so that all of the box is visible, keeping the direction. Small changes of the box move
+    // nothing, or the view would never rest while a mesh grows.
+    void ShowAll(const Eigen::AlignedBox3d& box);
     // Makes this point the target; the direction does not change.
     void LookAt(const Eigen::Vector3d& point) { target_ = point; }
 

@@ -144,10 +144,10 @@ bool Viewer::Impl::RunOnce() {
     before_s = now_s;
     if (link) TakeFromLink(*link);
     if (state.replay && state.replay->Advance(since_s)) DrawAtLeast(1);
-    const bool has_image = time_line.Update(state);
-    if (state.finishing.Update() || has_image) DrawAtLeast(1);
+    const bool has_image = time_line.Update(state), notes = state.UpdateNote();
+    if (state.finishing.Update() || has_image || notes) DrawAtLeast(1);
     for (const Window::Key& key : window->TakeKeys()) {
-        if (!ImGui::GetIO().WantTextInput) state.OnKey(key.key, key.mods);
+        if (state.asks() || !TakesKey(key.key)) state.OnKey(key.key, key.mods);
         rounds_to_draw = kSettlingRounds;
     }
     if (scene->Follow(state, std::min(since_s, 0.2))) DrawAtLeast(1);

@@ -56,6 +56,8 @@ struct ViewerOptions {
     bool follow = true;
     // When ViewerLink::ended is set; otherwise the user closes the window.
     bool close_at_end = false;
+    // A message stands over the 3D view for so long, where there is no list of them.
+    double message_s = 8;
     double max_fps = 0;  // drawing rate; 0: 60 on a GPU, 15 in software
     // Go on in this window (StartScreen::window) instead of opening one.
     std::shared_ptr<Window> window;

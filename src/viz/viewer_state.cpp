@@ -1,7 +1,5 @@
 #include "viz/viewer_state.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -31,9 +29,16 @@ void ViewerState::SendSettings() {
 }
 
 void ViewerState::SelectMethod(TrackingMethod method) {
-    if (method == settings.method) return;
+    if (ended() || method == this->method()) return;
     settings.method = method;
+    ++settings.method_choices;
     SendSettings();
+}
+
+TrackingMethod ViewerState::method() const {
+    const FrameReport& newest = system.frame().report;
+    const bool heeded = system.has_frame() && newest.method_choices == settings.method_choices;
+    return heeded ? newest.method : settings.method;
 }
 
 void ViewerState::RasteriseViews(bool on) {
@@ -132,6 +137,20 @@ void ViewerState::ReadMeasurementsOnce() {
     measurements_read_ = true;
 }
 
+bool ViewerState::UpdateNote() {
+    const bool came = noted_ != system.messages_said(), stood = note_stands_;
+    noted_ = system.messages_said();
+    if (came) note_until_s_ = now_s + options.message_s;
+    note_stands_ = now_s < note_until_s_;
+    return came || note_stands_ != stood;
+}
+
+// The expert view of a run has a list instead.
+const std::string* ViewerState::note() const {
+    const bool listed = link && view_kind == ViewKind::kExpert;
+    return note_stands_ && !listed ? &system.messages().back() : nullptr;
+}
+
 void ViewerState::ToggleCut() { view.cut = view.cut == Cut::kNone ? Cut::kAbove : Cut::kNone; }
 
 Shading ViewerState::shading() const {
@@ -147,75 +166,6 @@ Quality ViewerState::quality() const {
                       .paused = paused(),
                       .fusing = settings.fusing,
                       .detector_failed = system.labels().stopped});
-}
-
-// A question is answered by its own keys; all others do nothing.
-void ViewerState::Answer(int key) {
-    const bool yes = key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_Y;
-    if (yes) Reset();
-    if (yes || key == GLFW_KEY_ESCAPE || key == GLFW_KEY_N) ask_reset = false;
-}
-
-bool ViewerState::OnReplayKey(int key, int mods) {
-    const int frames = mods & GLFW_MOD_SHIFT ? 10 : 1;
-    switch (key) {
-        case GLFW_KEY_SPACE: replay->TogglePlaying(); return true;
-        case GLFW_KEY_LEFT: replay->Step(-frames); return true;
-        case GLFW_KEY_RIGHT: replay->Step(frames); return true;
-        case GLFW_KEY_HOME: replay->GoTo(0); return true;
-        case GLFW_KEY_END: replay->GoTo(replay->last()); return true;
-        default: return false;
-    }
-}
-
-bool ViewerState::OnMeasuringKey(int key) {
-    switch (key) {
-        case GLFW_KEY_ENTER:
-        case GLFW_KEY_KP_ENTER: measuring.Finish(); return true;
-        case GLFW_KEY_BACKSPACE: measuring.TakeBack(); return true;
-        case GLFW_KEY_ESCAPE: measuring.Toggle(); return true;
-        default: return false;
-    }
-}
-
-void ViewerState::OnKey(int key, int mods) {
-    if (mods & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) return;
-    if (asks()) return Answer(key);
-    if (replay && OnReplayKey(key, mods)) return;
-    if (measuring.on() && !show_help && OnMeasuringKey(key)) return;
-    const auto method = static_cast<std::size_t>(key - GLFW_KEY_1);
-    if (key >= GLFW_KEY_1 && method < kTrackingMethods.size())
-        return SelectMethod(kTrackingMethods[method].method);
-    switch (key) {
-        case GLFW_KEY_SPACE: return TogglePause();
-        case GLFW_KEY_S: return Step();
-        case GLFW_KEY_R: ask_reset = !ended(); return;
-        case GLFW_KEY_M: return SaveMesh();
-        case GLFW_KEY_K: return SaveScan();
-        case GLFW_KEY_V: return ToggleRecording();
-        case GLFW_KEY_P: want_screenshot = true; return;
-        case GLFW_KEY_TAB: return SwitchView();
-        case GLFW_KEY_F: return ToggleFollow();
-        case GLFW_KEY_E: return ToggleFirstPerson();
-        case GLFW_KEY_L: return ToggleMeasuring();
-        case GLFW_KEY_X: return ToggleCut();
-        case GLFW_KEY_G: return finishing.Start();
-        case GLFW_KEY_I: view.camera_image = !view.camera_image; return;
-        case GLFW_KEY_A: return ViewAll();
-        case GLFW_KEY_C: return CycleShading();
-        case GLFW_KEY_W: view.wireframe = !view.wireframe; return;
-        case GLFW_KEY_D: view.depth_test = !view.depth_test; return;
-        case GLFW_KEY_B: view.show_objects = !view.show_objects; return;
-        case GLFW_KEY_T: view.show_truth = !view.show_truth; return;
-        case GLFW_KEY_H:
-        case GLFW_KEY_F1: show_help = !show_help; return;
-        case GLFW_KEY_ESCAPE:
-            if (!show_help) close = true;
-            show_help = false;
-            return;
-        case GLFW_KEY_Q: close = true; return;
-        default: return;
-    }
 }
 
 std::string ViewerState::NewFileName(const char* prefix, const char* extension) const {

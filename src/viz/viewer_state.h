@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -77,6 +78,9 @@ struct ViewerState {
     // Sends all settings; call after changing `settings`.
     void SendSettings();
     void SelectMethod(TrackingMethod method);
+    // The newest frame's, which the run may have switched; a choice of the user that no frame has
+    // heeded yet.
+    TrackingMethod method() const;
     // Rasterised or ray cast, for ICP and for labels.
     void RasteriseViews(bool on);
     void UseClass(int id, bool on);
@@ -96,6 +100,10 @@ struct ViewerState {
     void ToggleFollow();
     void ToggleFirstPerson();
     void ViewAll();
+    // Call in each round. True if a message came or has stood long enough.
+    bool UpdateNote();
+    // The newest message, while it stands over the 3D view; else null.
+    const std::string* note() const;
     void SwitchView();  // between kScan and kExpert
     // Once the surface no longer changes.
     bool can_measure() const { return ended(); }
@@ -115,6 +123,9 @@ struct ViewerState {
     void Answer(int key);
 
     bool measurements_read_ = false;
+    std::uint64_t noted_ = 0;  // messages so far
+    double note_until_s_ = 0;  // on the window's clock
+    bool note_stands_ = false;
 };
 
 }  // namespace tessera

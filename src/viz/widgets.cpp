@@ -1,5 +1,7 @@
 #include "viz/widgets.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <fmt/printf.h>
 
 namespace tessera {
@@ -71,6 +73,12 @@ std::string FittedText(const std::string& text, float width) {
 
 void Tip(const char* text) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", text);
+}
+
+bool TakesKey(int key) {
+    if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return ImGui::GetIO().WantTextInput;
+    if (key == GLFW_KEY_ESCAPE) ImGui::SetWindowFocus(nullptr);  // closes menus
+    return true;
 }
 
 ImU32 ColourOf(QualityLevel level) {

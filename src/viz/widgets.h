@@ -32,6 +32,10 @@ std::string FittedText(const std::string& text, float width);
 // Tooltip of the previous item, while the mouse is over it.
 void Tip(const char* text);
 
+// True if a key of the window (GLFW_KEY_*) is not for the window: it goes to a text field, or a
+// menu is open, which Escape closes. Also outside a frame.
+bool TakesKey(int key);
+
 // The traffic light of a quality.
 ImU32 ColourOf(QualityLevel level);
 void DrawLamp(ImDrawList& list, const ImVec2& centre, ImU32 colour);

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -187,6 +188,31 @@ TEST_F(StartProgram, AFinishedScanIsMeasuredAndMadeAModel) {
     Key(XK_g);
     EXPECT_TRUE(Within(60, [] { return fs::exists("done/model/filled.ply"); }));
     EXPECT_TRUE(fs::exists("done/model/model.glb"));
+    ASSERT_TRUE(display_->AskToClose("done - Tessera"));
+    EXPECT_EQ(Exit(), 0) << TextOf("stderr");
+}
+
+// Finishing again, and pictures, replace nothing and are in the folder of the run.
+TEST_F(StartProgram, AModelThatIsThereIsKept) {
+    const std::string run = std::string(TESSERA_PROGRAM) + " run rec --out done >/dev/null 2>&1";
+    ASSERT_EQ(std::system(run.c_str()), 0);
+    fs::create_directories("done/model");
+    std::ofstream("done/model/model.glb") << "cleaned by hand";
+    Click("entry.done");
+    Click("open");
+    ASSERT_TRUE(Within(30, [&] { return display_->HasWindow("done - Tessera"); }))
+        << TextOf("stderr");
+    Pause();
+    display_->MoveTo(600, 300);
+    Key(XK_g);
+    EXPECT_TRUE(Within(60, [] { return fs::exists("done/model_2/filled.ply"); }));
+    EXPECT_EQ(TextOf("done/model/model.glb"), "cleaned by hand");
+    Key(XK_p);
+    EXPECT_TRUE(Within(20, [] {
+        return std::ranges::any_of(fs::directory_iterator("done"), [](const auto& entry) {
+            return entry.path().filename().string().starts_with("scan-");
+        });
+    }));
     ASSERT_TRUE(display_->AskToClose("done - Tessera"));
     EXPECT_EQ(Exit(), 0) << TextOf("stderr");
 }

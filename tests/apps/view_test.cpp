@@ -63,6 +63,31 @@ TEST_F(View, AScreenshotShowsTheMesh) {
     }
 }
 
+// Another path over the mesh does not make it less of a run: the time line is there.
+TEST_F(View, ARunHasItsTimeLineWhateverPathIsDrawn) {
+    std::string why;
+    const auto display = testing_support::VirtualDisplay::Start(why);
+    if (!display) GTEST_SKIP() << why;
+    std::vector<StampedPose> poses(2);
+    poses[1].stamp_s = 1;
+    poses[1].T_world_camera.translation().y() = 0.2;
+    ASSERT_TRUE(WriteTrajectory(folder_ / "other.txt", poses).ok());
+    std::vector<ColourImage> pictures;
+    for (const std::string& option : {std::string(), " --trajectory " + (folder_ / "other.txt")}) {
+        ASSERT_EQ(Call(folder_.path() + option + " --screenshot " + (folder_ / "shot.png")), 0)
+            << error_;
+        auto picture = ReadColourImage(folder_ / "shot.png");
+        ASSERT_TRUE(picture.ok()) << picture.message();
+        pictures.push_back(std::move(picture.value()));
+    }
+    const int width = pictures[0].width(), height = pictures[0].height();
+    int differ = 0;  // in the lowest rows, where the time line is
+    for (int y = height - 60; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            differ += std::abs(pictures[0](x, y).g - pictures[1](x, y).g) > 8;
+    EXPECT_EQ(differ, 0);
+}
+
 TEST_F(View, WithoutADisplayItIsOneLine) {
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");

@@ -75,7 +75,7 @@ class EngineTest : public testing::Test {
     // occasionally.
     void AskAtRandomToTheEnd(const TempFolder& folder) {
         std::mt19937 random(7);
-        int saved = 0;
+        int saved = 0, chosen = 0;
         while (Next()) {
             switch (random() % 12) {
                 case 0: Ask(Command::kReset); break;
@@ -88,6 +88,7 @@ class EngineTest : public testing::Test {
                 case 6: {
                     ViewerSettings settings;
                     settings.method = kTrackingMethods[random() % kTrackingMethods.size()].method;
+                    settings.method_choices = ++chosen;
                     settings.prealign = random() % 2 == 0;
                     settings.fusing = random() % 4 != 0;
                     settings.labels.on = random() % 2 == 0;

@@ -169,6 +169,7 @@ TEST_F(Live, ViewerCommandsAreObeyed) {
     while (Reports().size() < 4) ASSERT_TRUE(Next());
     ViewerSettings settings;
     settings.method = TrackingMethod::kIcp;
+    settings.method_choices = 1;
     link.settings.Push(ViewerSettings(settings));
     // Single frames may be lost after many dropped frames.
     while (Reports().back()->method != TrackingMethod::kIcp || !Reports().back()->tracked())

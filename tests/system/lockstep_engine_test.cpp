@@ -94,6 +94,7 @@ TEST_F(Lockstep, AResetBeginsANewWorldAndKeepsTheMethod) {
     }
     ViewerSettings settings;
     settings.method = TrackingMethod::kSdfGeometric;
+    settings.method_choices = 1;
     link.settings.Push(std::move(settings));
     Ask(Command::kReset);
     TakeAll();

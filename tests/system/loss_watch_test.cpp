@@ -172,6 +172,8 @@ TEST_F(LostCameraRun, TheNewPartIsJoinedWithTheRest) {
             return r->warning.find(what) != std::string::npos;
         });
     };
+    EXPECT_FALSE(reports.front()->begins_part);
+    EXPECT_EQ(std::ranges::count_if(reports, &FrameReport::begins_part), 1);
     EXPECT_TRUE(told("is joined with"));
     EXPECT_TRUE(told("map corrected"));
     EXPECT_EQ(Messages().find("left out"), std::string::npos) << Messages();

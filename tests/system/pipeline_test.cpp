@@ -39,6 +39,26 @@ TEST(Pipeline, GivenPosesAreFusedAndNotTracked) {
     }
 }
 
+// A plan has switched the method; the window's settings are all sent when any of them changes.
+TEST(Pipeline, SettingsChangeTheMethodOnlyWhereTheUserChoseOne) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    EXPECT_EQ(pipeline.Process(RoomFrame(0)).method, TrackingMethod::kSdf);
+    pipeline.Select(TrackingMethod::kIcp);
+    ViewerSettings settings;
+    settings.prealign = false;
+    pipeline.Apply(settings);
+    EXPECT_EQ(pipeline.Process(RoomFrame(1)).method, TrackingMethod::kIcp);
+    settings.method = TrackingMethod::kSdfGeometric;
+    settings.method_choices = 1;
+    pipeline.Apply(settings);
+    const FrameReport report = pipeline.Process(RoomFrame(2));
+    EXPECT_EQ(report.method, TrackingMethod::kSdfGeometric);
+    EXPECT_EQ(report.method_choices, 1);
+    pipeline.Select(TrackingMethod::kIcp);
+    pipeline.Apply(settings);
+    EXPECT_EQ(pipeline.Process(RoomFrame(3)).method, TrackingMethod::kIcp);
+}
+
 TEST(Pipeline, AFrameWithoutColourIsTrackedByItsShape) {
     Pipeline pipeline(SmallConfig(), SmallCamera());
     for (int i = 0; i < 10; ++i) {

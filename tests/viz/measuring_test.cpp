@@ -92,6 +92,32 @@ TEST(Measuring, ClicksAreTakenBackOneByOne) {
     EXPECT_TRUE(measuring.all().empty());
 }
 
+TEST(Measuring, WhatWasClearedComesBackUntilTheNextClick) {
+    const TempFolder folder;
+    const std::string file = MeasurementsFile(folder.path());
+    Measuring measuring;
+    measuring.Open(file);
+    ClickSquare(measuring);
+    Click(measuring, 5, 5);
+    Click(measuring, 6, 5);
+    measuring.Clear();
+    EXPECT_TRUE(measuring.all().empty());
+    EXPECT_EQ(measuring.open(), nullptr);
+    EXPECT_TRUE(ReadMeasurements(file).value().empty());
+    measuring.Clear();  // nothing more to take away
+    measuring.TakeBack();
+    ASSERT_EQ(measuring.all().size(), 2u);
+    EXPECT_TRUE(measuring.all()[0].closed);
+    EXPECT_EQ(ReadMeasurements(file).value().size(), 2u);
+    measuring.TakeBack();  // as before: the last click
+    EXPECT_EQ(measuring.all()[1].corners.size(), 1u);
+    measuring.Clear();
+    Click(measuring, 0, 0);
+    measuring.TakeBack();
+    measuring.TakeBack();
+    EXPECT_TRUE(measuring.all().empty());
+}
+
 TEST(Measuring, EverythingIsKeptInTheFile) {
     const TempFolder folder;
     const std::string file = MeasurementsFile(folder.path());

@@ -10,12 +10,10 @@ namespace tessera::testing_support {
 
 class ModelWindow : public DrivenWindow {
   protected:
-    // `measurements`: as in ViewerOptions.
-    void Open(ViewedModel model, const std::string& measurements = {}) {
-        ViewerOptions options;
+    void Open(ViewedModel model) {
+        ViewerOptions options = options_;
         options.screen.wait_s = 0;
         options.max_fps = 1e9;
-        options.measurements = measurements;
         auto viewer = Viewer::OpenModel(std::move(model), options);
         ASSERT_TRUE(viewer.ok()) << viewer.message();
         viewer_ = std::move(viewer.value());
@@ -28,6 +26,7 @@ class ModelWindow : public DrivenWindow {
         return viewer_->FindControl(name);
     }
 
+    ViewerOptions options_;  // a test's own, completed by Open
     std::unique_ptr<Viewer> viewer_;
 };
 

@@ -25,6 +25,10 @@ TEST_F(QualityTest, IsGreenIfAllIsWell) {
     EXPECT_EQ(Now().level, QualityLevel::kGood);
     frame.report.first = true;
     EXPECT_EQ(Now().level, QualityLevel::kGood);
+    EXPECT_EQ(Now().title, "Started");
+    frame.report.begins_part = true;  // the map goes on
+    EXPECT_EQ(Now().level, QualityLevel::kGood);
+    EXPECT_EQ(Now().title, "A new part");
     EXPECT_EQ(QualityOf({}).title, "Waiting");
 }
 

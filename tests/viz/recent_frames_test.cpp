@@ -27,6 +27,12 @@ TEST(RecentFrames, CountsThoseOfTheLastTwoSeconds) {
     EXPECT_NEAR(static_cast<double>(recent.counts().frames), 60, 1);
     EXPECT_EQ(recent.counts().dropped, 0);
     EXPECT_NEAR(recent.SilentFor_s(kPeriod_s * 299 + 4), 4, 1e-9);
+    FrameUpdate part = UpdateAt(300);  // a new part of the scan: the counts go on
+    part.report.first = part.report.begins_part = true;
+    part.counts.dropped = 200;
+    recent.Add(part, kPeriod_s * 300);
+    EXPECT_NEAR(static_cast<double>(recent.counts().frames), 60, 1);
+    EXPECT_EQ(recent.counts().dropped, 0);
     recent.Add(UpdateAt(0), 20);  // after a reset
     EXPECT_EQ(recent.counts().frames, 1);
 }

@@ -59,6 +59,9 @@ TEST(StartChoices, TheHomeFolderIsFilledIn) {
     StartChoices choices = Plain();
     choices.path = "~/desk";
     EXPECT_EQ(SourceOf(choices), "/home/me/desk");
+    choices.output_folder = "~/out";
+    EXPECT_EQ(OutputFolderOf(choices), "/home/me/out");
+    EXPECT_EQ(RunWords(choices).at(4), "/home/me/out");
     choices.path = "a~/desk";
     EXPECT_EQ(SourceOf(choices), "a~/desk");
 }

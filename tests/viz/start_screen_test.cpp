@@ -124,6 +124,20 @@ TEST_F(Start, EnterStartsAndEscapeCloses) {
     EXPECT_TRUE(screen_->Run().empty());
 }
 
+// A list that is open gets the keys, and Escape closes it, not the program.
+TEST_F(Start, KeysInAListAreNotTheWindows) {
+    Open();
+    Click("page.demo");
+    Click("labels");
+    ASSERT_TRUE(FindControl("labels.b.onnx"));
+    Key(XK_Return);
+    Key(XK_Escape);
+    EXPECT_FALSE(decided_);
+    EXPECT_FALSE(FindControl("labels.b.onnx"));
+    Key(XK_Escape);
+    EXPECT_TRUE(decided_);
+}
+
 TEST_F(Start, SettingsBecomeOptions) {
     Open();
     Click("page.demo");

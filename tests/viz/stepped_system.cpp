@@ -26,8 +26,8 @@ void SteppedSystem::Obey() {
     ViewerSettings settings;
     while (link_.settings.TryPop(settings)) {
         settings_.push_back(settings);
+        if (settings.method_choices != wanted_.method_choices) pipeline_->Select(settings.method);
         wanted_ = settings;
-        pipeline_->Select(settings.method);
         pipeline_->SetFusing(settings.fusing);
     }
     ViewerCommand command;
@@ -68,6 +68,7 @@ void SteppedSystem::ProcessFrame(std::shared_ptr<const Frame> frame, double deco
     update.queues = {{"frames", 0}, {"meshes", link_.meshes.size()}};
     Stopwatch watch;
     update.report = pipeline_->Process(*frame);
+    update.report.method_choices = wanted_.method_choices;
     update.latency_ms = decode_ms + watch.LapMs();
     const FrameReport& report = update.report;
     if (report.first && report.tracked() && frame->T_world_camera)

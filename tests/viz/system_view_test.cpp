@@ -59,5 +59,35 @@ TEST(SystemView, ObjectsAreTheNewestAndGoWithTheWorld) {
     EXPECT_NE(view.objects_taken(), taken);
 }
 
+// The camera was lost, and is tracked in another place of the same map.
+TEST(SystemView, ANewPartBreaksThePathAndKeepsTheRest) {
+    ViewerLink link;
+    SystemView view;
+    const auto push = [&](FrameUpdate update, double x_m) {
+        update.report.track.status = TrackStatus::kGood;
+        update.report.track.T_world_camera.translation().x() = x_m;
+        update.T_world_camera_truth = update.report.track.T_world_camera;
+        link.frames.Push(std::move(update));
+        view.Take(link, 0);
+    };
+    push(FrameOf(0), 0);
+    push(FrameOf(1), 0.1);
+    link.objects.Push(std::vector<MapObject>(2));
+    view.Take(link, 0);
+    const std::uint64_t identity = view.path_identity();
+    FrameUpdate part = FrameOf(2);
+    part.report.first = part.report.begins_part = true;
+    push(std::move(part), 1000);
+    push(FrameOf(3), 1000.1);
+    EXPECT_EQ(view.path_identity(), identity);
+    EXPECT_EQ(view.objects().size(), 2u);
+    ASSERT_EQ(view.path().size(), 4u);
+    EXPECT_EQ(view.truth().size(), 4u);
+    EXPECT_TRUE(view.path()[1].follows);
+    EXPECT_FALSE(view.path()[2].follows);
+    EXPECT_TRUE(view.path()[3].follows);
+    EXPECT_NEAR(view.place()->x(), 1000.1, 1e-3);
+}
+
 }  // namespace
 }  // namespace tessera

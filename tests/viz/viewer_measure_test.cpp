@@ -1,76 +1,18 @@
 // Measures, cuts and finishes with the mouse and the keyboard.
 #include <X11/keysym.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <filesystem>
 
-#include "support/temp_folder.h"
-#include "viz/measuring.h"
-#include "viz/model_window.h"
+#include "viz/measure_window.h"
 
 namespace tessera {
 namespace {
 
-constexpr Rgb8 kGreen{20, 220, 20}, kRed{220, 20, 20};
-
-void AddSquare(TriangleMesh& mesh, const std::array<Eigen::Vector3f, 4>& corners, Rgb8 colour) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const Eigen::Vector3f& corner : corners) {
-        mesh.vertices.push_back(corner);
-        mesh.colours.push_back(colour);
-    }
-    mesh.triangles.push_back({first, first + 3, first + 1});
-    mesh.triangles.push_back({first + 1, first + 3, first + 2});
-}
-
-class ViewerMeasure : public testing_support::ModelWindow {
-  protected:
-    // A wall: a green square of 2 m, facing the camera at the origin.
-    void SetUp() override {
-        ModelWindow::SetUp();
-        if (!display_) return;
-        AddSquare(model_.mesh, {{{-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}}}, kGreen);
-        model_.path.push_back(Eigen::Isometry3d::Identity());
-    }
-    void Open() { ModelWindow::Open(model_, file_); }
-    static bool Like(const Rgb8& c, const Rgb8& colour) {
-        const int high = colour.g > colour.r ? c.g : c.r, low = colour.g > colour.r ? c.r : c.g;
-        return high > 60 && high > 2 * low && high > 2 * c.b;
-    }
-    // The pixels of that colour in the 3D view.
-    std::vector<Eigen::Vector2i> Pixels(Rgb8 colour) {
-        const ColourImage picture = viewer_->Picture();
-        std::vector<Eigen::Vector2i> pixels;
-        for (int y = 0; y < picture.height(); ++y)
-            for (int x = 0; x < picture.width(); ++x)
-                if (Like(picture(x, y), colour)) pixels.emplace_back(x, y);
-        return pixels;
-    }
-    double Count(Rgb8 colour) { return static_cast<double>(Pixels(colour).size()); }
-    // The pixel of the square that lies farthest in a direction of the picture: its corner.
-    Eigen::Vector2i Corner(const std::vector<Eigen::Vector2i>& pixels, int x, int y) const {
-        return *std::ranges::max_element(
-            pixels, {}, [=](const Eigen::Vector2i& p) { return x * p.x() + y * p.y(); });
-    }
-    void ClickAt(const Eigen::Vector2i& at) {
-        display_->MoveTo(static_cast<float>(at.x()), static_cast<float>(at.y()));
-        Rounds(3);
-        display_->Press(1);
-        Rounds(2);
-        display_->Release(1);
-        Rounds(4);
-    }
-    std::vector<Measurement> Saved() const {
-        const Result<std::vector<Measurement>> read = ReadMeasurements(file_);
-        return read.ok() ? read.value() : std::vector<Measurement>();
-    }
-
-    TempFolder folder_;
-    const std::string file_ = folder_.path() + "/measurements.json";
-    ViewedModel model_;
-};
+using testing_support::AddSquare;
+using testing_support::kGreen;
+using testing_support::kRed;
+using ViewerMeasure = testing_support::MeasureWindow;
 
 TEST_F(ViewerMeasure, AWallsWidthAreaAndVolume) {
     Open();
@@ -148,6 +90,55 @@ TEST_F(ViewerMeasure, KeysAndDrags) {
     Rounds(3);
     Key(XK_Return);
     EXPECT_EQ(Saved().size(), 1u);
+}
+
+// There is no area yet that the click could make.
+TEST_F(ViewerMeasure, AClickBesideTheFirstCornerIsNoCorner) {
+    Open();
+    const std::vector<Eigen::Vector2i> pixels = Pixels(kGreen);
+    const Eigen::Vector2i first = Corner(pixels, -1, -1), last = Corner(pixels, 1, 1),
+                          beside = first - Eigen::Vector2i(5, 5);
+    Click("measure");
+    ClickAt(first);
+    ClickAt(beside);
+    ClickAt((first + last) / 2);
+    ASSERT_EQ(Saved().size(), 1u);
+    EXPECT_EQ(Saved()[0].corners.size(), 2u);
+    ClickAt(beside);
+    EXPECT_EQ(Saved()[0].corners.size(), 2u);
+    ClickAt(Corner(pixels, 1, -1));
+    ClickAt(beside);  // now it makes the area
+    EXPECT_EQ(Saved()[0].corners.size(), 3u);
+    EXPECT_TRUE(Saved()[0].closed);
+}
+
+TEST_F(ViewerMeasure, ASurfaceThatOneSeesThroughCanBeMeasured) {
+    Open();
+    const std::vector<Eigen::Vector2i> pixels = Pixels(kGreen);
+    const Eigen::Vector2i left = Corner(pixels, -1, -1), right = Corner(pixels, 1, 1);
+    MoveTo("view");
+    Key(XK_d);
+    const auto green = static_cast<double>(pixels.size());
+    EXPECT_NEAR(Count(kGreen), green, 0.02 * green);
+    Click("measure");
+    ClickAt((3 * left + right) / 4);
+    ClickAt((left + 3 * right) / 4);
+    const std::vector<Measurement> saved = Saved();
+    ASSERT_EQ(saved.size(), 1u);
+    ASSERT_EQ(saved[0].corners.size(), 2u);
+    for (const Eigen::Vector3d& corner : saved[0].corners) EXPECT_NEAR(corner.z(), 3, 0.001);
+}
+
+// There is no list of messages.
+TEST_F(ViewerMeasure, APictureOfAModelIsToldOf) {
+    Open();
+    EXPECT_FALSE(FindControl("message"));
+    Key(XK_p);
+    EXPECT_TRUE(FindControl("message"));
+    int pictures = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        pictures += entry.path().filename().string().starts_with("scan-");
+    EXPECT_EQ(pictures, 1);
 }
 
 TEST_F(ViewerMeasure, EarlierMeasurementsAreThere) {

@@ -38,5 +38,28 @@ TEST_F(ViewerMesh, AfterTheEndTheNewMeshIsShownAsFarAsItCame) {
     EXPECT_LT(Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); }), 0.02);
 }
 
+// Two parts of a scan lie a kilometre apart. What is shown whole is the one with the camera.
+TEST_F(ViewerMesh, TheWholeIsThePartWithTheCamera) {
+    Frames(3);
+    Click("view_all");
+    MoveTo("view", 0.05f);  // no tooltip over the view
+    const auto share = [&] {
+        EXPECT_TRUE(Until([&] { return link_.meshes.empty(); }));
+        Rounds(3);
+        return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); });
+    };
+    const double before = share();
+    ASSERT_GT(before, 0.1);
+    MeshUpdate far;
+    ASSERT_TRUE(system_->Step() && link_.meshes.TryPop(far));
+    ASSERT_FALSE(far.blocks.empty());
+    for (GeometryBlock& block : far.blocks) {
+        block.id += 100000;
+        block.coord.x += 3125;  // 1000 m
+    }
+    link_.meshes.TryPush(std::move(far));
+    EXPECT_NEAR(share(), before, 0.02);
+}
+
 }  // namespace
 }  // namespace tessera

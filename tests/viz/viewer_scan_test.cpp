@@ -101,6 +101,26 @@ TEST_F(ViewerScan, ButtonsDoTheirWork) {
               (std::vector{Kind::kPause, Kind::kSaveMesh, Kind::kSaveScan, Kind::kReset}));
 }
 
+// A menu that is open gets the keys, and Escape closes it: none of them ends the scan.
+TEST_F(ViewerScan, KeysInAMenuAreNotTheWindows) {
+    Frames(2);
+    Click("save");
+    ASSERT_TRUE(viewer_->FindControl("save_mesh"));
+    Key(XK_q);
+    Key(XK_r);
+    EXPECT_FALSE(viewer_->FindControl("reset.confirm"));
+    ASSERT_TRUE(viewer_->FindControl("save_mesh"));
+    Key(XK_Escape);
+    EXPECT_FALSE(viewer_->FindControl("save_mesh"));
+    // A question that a key has answered takes no more keys.
+    Key(XK_r);
+    EXPECT_TRUE(viewer_->FindControl("reset.confirm"));
+    Key(XK_n);
+    Key(XK_Tab);
+    EXPECT_TRUE(viewer_->FindControl("method.icp"));
+    EXPECT_TRUE(Commands().empty());
+}
+
 // A wall seen in one frame is red. After enough frames it has its own colours.
 TEST_F(ViewerScan, TheCoverageShowsWhatIsThin) {
     const auto red = [this] {
@@ -133,6 +153,39 @@ TEST_F(ViewerScan, AdviceIsShownAndGoes) {
     link_.paused = true;
     Rounds(4);
     EXPECT_FALSE(viewer_->FindControl("hint"));
+}
+
+class ViewerScanMessages : public ViewerScan {
+  protected:
+    void SetUp() override {
+        first_options_.message_s = 1e3;  // works on slow machines too
+        ViewerScan::SetUp();
+    }
+};
+TEST_F(ViewerScanMessages, TheNewestStandsOverTheView) {
+    EXPECT_FALSE(viewer_->FindControl("message"));
+    link_.messages.Push("a cable is loose");
+    Rounds(3);
+    const ControlRect short_one = Find("message");
+    EXPECT_TRUE(IsInside(short_one, Find("view")));
+    link_.messages.Push("the camera is found nowhere; a new part of the scan begins");
+    Rounds(3);
+    EXPECT_GT(Find("message").width, short_one.width);
+    Click("switch_view");  // there they are listed
+    EXPECT_FALSE(viewer_->FindControl("message"));
+}
+
+class ViewerScanShortMessages : public ViewerScan {
+  protected:
+    void SetUp() override {
+        first_options_.message_s = 0.2;
+        ViewerScan::SetUp();
+    }
+};
+TEST_F(ViewerScanShortMessages, TheyGo) {
+    link_.messages.Push("a cable is loose");
+    Rounds(3);
+    EXPECT_TRUE(Within(20, [&] { return !viewer_->FindControl("message"); }));
 }
 
 TEST_F(ViewerScan, FirstPersonLooksFromTheCamerasPlace) {

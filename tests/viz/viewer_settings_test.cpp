@@ -22,6 +22,34 @@ TEST_F(ViewerControls, MethodsAreSelected) {
     EXPECT_EQ(system_->settings().size(), 4u);
 }
 
+// `--switch FRAME:METHOD`: the run has another method than the window opened with.
+TEST_F(ViewerControls, AMethodThatTheRunSwitchedToIsShownAndStays) {
+    const auto lit = [this](const char* name) {
+        const ColourImage picture = viewer_->Picture();
+        const ControlRect button = Find(name);
+        const Rgb8& c =
+            picture(static_cast<int>(button.x) + 4, static_cast<int>(button.y + button.height / 2));
+        return c.r == 47 && c.g == 102 && c.b == 176;
+    };
+    Frames(2);
+    EXPECT_TRUE(lit("method.sdf"));
+    FrameUpdate switched;
+    switched.report.index = 2;
+    switched.report.method = TrackingMethod::kIcp;
+    link_.frames.Push(std::move(switched));
+    Rounds(3);
+    EXPECT_TRUE(lit("method.icp"));
+    EXPECT_FALSE(lit("method.sdf"));
+    Click("fusing");
+    ASSERT_NE(LastSettings(), nullptr);
+    EXPECT_EQ(LastSettings()->method_choices, 0);  // the method is as the run wants it
+    Click("method.icp-rgb");
+    EXPECT_EQ(LastSettings()->method, TrackingMethod::kIcpRgb);
+    EXPECT_EQ(LastSettings()->method_choices, 1);
+    Frames(1);
+    EXPECT_EQ(system_->settings().size(), 2u);
+}
+
 TEST_F(ViewerControls, AlphaIsAutomaticOrSet) {
     Frames(2);
     Click("alpha", 0.9f);  // disabled

@@ -134,6 +134,24 @@ TEST_F(ViewerTimeLine, TheCameraAndThePathShowTheFrame) {
     EXPECT_GT(Count(IsPath), path_in_between + 30);
 }
 
+// Under the slider, at its right end, where nothing else is red.
+TEST_F(ViewerTimeLine, TheLastFrameIsMarked) {
+    for (const bool lost : {false, true}) {
+        ViewedModel model = MadeUpModel();
+        if (lost) model.time_line->frames.back().row.state = FrameState::kLost;
+        Open(std::move(model));
+        const ColourImage picture = viewer_->Picture();
+        const ControlRect slider = Find("time_line");
+        const int right = static_cast<int>(slider.x + slider.width);
+        int red = 0;
+        for (int y = static_cast<int>(slider.y); y < static_cast<int>(slider.y + slider.height);
+             ++y)
+            for (int x = right - 14; x < right; ++x) red += IsRed(picture(x, y));
+        EXPECT_EQ(red > 0, lost);
+        viewer_.reset();
+    }
+}
+
 TEST_F(ViewerTimeLine, TheFramesImageIsShownWhereThereIsOne) {
     ViewedModel model = MadeUpModel();
     model.open_source = []() -> Result<std::unique_ptr<FrameSource>> {
