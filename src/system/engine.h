@@ -89,6 +89,9 @@ class Engine {
     // After Next returned false, if the map is there: kSaveMesh and kSaveScan, as during the run.
     // Returns when the file is written.
     virtual void Save(const ViewerCommand& command) = 0;
+    // Likewise: sends the window a part of the final mesh, as far as its queue has room. Returns
+    // true when all of it was sent.
+    virtual bool SendFinalMesh() = 0;
     // After TakeMesh; empty without labels.
     virtual const std::vector<MapObject>& objects() const = 0;
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh

@@ -61,6 +61,7 @@ struct ViewerState {
     ViewerSettings settings;              // as last sent
     std::array<char, 1024> typed_path{};  // of a detector
     int selected_object = 0;              // MapObject::id; 0: none
+    bool has_final_mesh = false;          // of the run, all of it
     bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
 
     bool ended() const { return !link || link->ended; }
@@ -98,7 +99,7 @@ struct ViewerState {
     void ViewAll();
     void SwitchView();  // between kScan and kExpert
     // Once the surface no longer changes.
-    bool can_measure() const { return ended(); }
+    bool can_measure() const { return !link || has_final_mesh; }
     void ToggleMeasuring();
     void ReadMeasurementsOnce();
     void ToggleCut();
