@@ -63,6 +63,8 @@ Result<RunSummary> Runner::Run(const std::atomic<bool>& stop) {
 
 Status Runner::Open(const std::atomic<bool>& stop) {
     if (Status status = CheckRun(request_, config_); !status.ok()) return status;
+    if (const std::string& folder = request_.output_folder; !folder.empty())
+        if (Status status = CheckOutputFolder(request_.source, folder); !status.ok()) return status;
     std::vector<StampedPose> given;
     if (!request_.poses_file.empty()) {
         Result<Trajectory> poses = ReadTrajectory(request_.poses_file);

@@ -156,6 +156,8 @@ class Sender(unittest.TestCase):
             os.mkdir(out)
             with open(out + "/trajectory.txt", "w", encoding="ascii") as earlier:
                 earlier.write("1 0 0 0 0 0 0 1\n")
+            with open(out + "/run.json", "w", encoding="ascii") as mark:
+                mark.write("{}")
             with tessera.live.Live(scene[0].camera, out, options=["--mode", "lockstep"], depth_scale=5000,
                                    settings={"mapping.voxel_size_m": 0.04, "mapping.truncation_m": 0.16}) as live:
                 for frame in scene:
