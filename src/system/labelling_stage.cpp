@@ -92,7 +92,8 @@ DetectorChange LabellingStage::Change(const std::string& name, const OpenDetecto
     if (classes_.count() == 0) classes_ = std::move(labelling.value().classes);
     broken_ = false;
     if (in_background_) detector_->WorkInBackground();
-    return {"objects are detected with " + name, std::make_shared<const LabelClasses>(classes_)};
+    return {"objects are detected with " + name, std::make_shared<const LabelClasses>(classes_),
+            name};
 }
 
 LabellingThread::LabellingThread(LabellingStage stage, OpenDetectorFunction open, Wake& mapping)

@@ -98,7 +98,8 @@ struct ViewerLink {
     FifoQueue<MeshUpdate> meshes{4, viewer};  // if full, changes stay in the mesher
     // Pushed by the thread that pushes frames.
     NewestQueue<LabelUpdate> labels{64, viewer};
-    NewestQueue<LabelClasses> classes{1, viewer};  // of a run with labels, at its start
+    NewestQueue<LabelClasses> classes{1, viewer};   // of a run with labels, at its start
+    NewestQueue<std::string> detectors{1, viewer};  // names of those chosen that came into use
     // All objects, by number. Pushed by the map's owner; at the end, by the thread that pushes
     // frames.
     NewestQueue<std::vector<MapObject>> objects{1, viewer};

@@ -82,9 +82,9 @@ struct ViewerState {
     void RasteriseViews(bool on);
     void UseClass(int id, bool on);
     void UseDetector(const std::string& name);
-    // The one in use, or last chosen; empty: none.
+    // The one in use, which a chosen one is not before it is open; empty: none.
     const std::string& detector() const {
-        return settings.detector.empty() ? options.detector : settings.detector;
+        return system.detector().empty() ? options.detector : system.detector();
     }
     void TogglePause();
     void Step();
