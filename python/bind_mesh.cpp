@@ -30,6 +30,7 @@ void BindObject(py::module_& module) {
         .def_readonly("class_name", &MapObject::class_name)
         .def_readonly("probability", &MapObject::probability)
         .def_readonly("observations", &MapObject::observations)
+        .def_readonly("vertices", &MapObject::vertices)
         .def_property_readonly(
             "colour",
             [](const MapObject& o) { return py::make_tuple(o.colour.r, o.colour.g, o.colour.b); })
@@ -40,6 +41,12 @@ void BindObject(py::module_& module) {
                                [](const MapObject& o) { return MatrixOf(o.T_world_oriented); })
         .def_property_readonly("oriented_size",
                                [](const MapObject& o) { return VectorOf(o.oriented_size); })
+        .def_property_readonly("embedding",
+                               [](const MapObject& o) {
+                                   return py::array_t<float>(
+                                       static_cast<py::ssize_t>(o.embedding.size()),
+                                       o.embedding.data());
+                               })
         .def("__repr__", [](const MapObject& o) {
             return fmt::format("<tessera.MapObject {}: {}>", o.id, o.class_name);
         });

@@ -21,7 +21,7 @@ RunResult Run(const Path& source, const std::optional<Path>& out, const std::opt
     RunRequest request;
     request.source = source.string();
     request.output_folder = out.value_or("").string();
-    request.labels = labels.value_or("").string();
+    request.labels = LabelsFrom(labels);
     request.selection = {start, frames.value_or(-1), stride};
     request.command_line = {"tessera.run"};
     const RunConfig configured = Configure(config, settings);
@@ -29,6 +29,8 @@ RunResult Run(const Path& source, const std::optional<Path>& out, const std::opt
     std::atomic<bool> stop{false};
     std::optional<py::error_already_set> interrupt;
     RunObserver observer;
+    bool begun = false;
+    observer.on_open = [&](const SourceInfo&) { begun = true; };
     observer.on_warning = [&](const std::string& text) { result.warnings.push_back(text); };
     // Ctrl-C ends the run after the current frame. Its files are then complete, as with the
     // program.
@@ -40,7 +42,9 @@ RunResult Run(const Path& source, const std::optional<Path>& out, const std::opt
     };
     {
         const py::gil_scoped_release release;
-        result.summary = ValueOrBadInput(ExecuteRun(request, configured, observer, stop));
+        Result<RunSummary> summary = ExecuteRun(request, configured, observer, stop);
+        if (begun) ThrowIfBroken(summary.status());
+        result.summary = ValueOrBadInput(std::move(summary));
     }
     if (interrupt) throw *interrupt;
     return result;

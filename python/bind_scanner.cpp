@@ -16,7 +16,7 @@ std::unique_ptr<Scanner> MakeScanner(const PinholeCamera& camera, const std::opt
                                      const std::optional<Path>& labels) {
     const RunConfig configured = Configure(config, settings);
     const py::gil_scoped_release release;
-    return std::make_unique<Scanner>(camera, configured, labels.value_or("").string());
+    return std::make_unique<Scanner>(camera, configured, LabelsFrom(labels));
 }
 
 FrameResult Track(Scanner& scanner, const py::array& depth_m,

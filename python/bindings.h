@@ -5,11 +5,18 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace tessera::python {
 
 using Path = std::filesystem::path;  // str or os.PathLike
+
+// The argument `labels`, as the program takes --labels: "none" is none. Empty: no labels.
+inline std::string LabelsFrom(const std::optional<Path>& labels) {
+    const std::string name = labels.value_or("").string();
+    return name == "none" ? "" : name;
+}
 
 void BindMesh(pybind11::module_& module);
 void BindTrajectory(pybind11::module_& module);

@@ -120,6 +120,9 @@ class MapObject:
     def observations(self) -> int:
         """Number of detections."""
     @property
+    def vertices(self) -> int:
+        """Number of vertices in the mesh."""
+    @property
     def centroid(self) -> NDArray[np.float64]: ...
     @property
     def box_min(self) -> NDArray[np.float64]: ...
@@ -131,6 +134,9 @@ class MapObject:
     @property
     def oriented_size(self) -> NDArray[np.float64]:
         """Edge lengths of the oriented box along its axes."""
+    @property
+    def embedding(self) -> NDArray[np.float32]:
+        """(N,), of length 1; empty if the detector gives none."""
 
 class Scanner:
     """A scan driven frame by frame. Uses the lockstep engine of `tessera run`, so the same frames and settings give
@@ -139,8 +145,8 @@ class Scanner:
     def __init__(self, camera: Camera, config: Optional[Path] = None, settings: Optional[Settings] = None,
                  labels: Optional[Path] = None) -> None:
         """`config`: a preset ("default", "bylow2014", "diaz2018", "labels") or a YAML file, like --config. `settings`:
-        keys of docs/configuration.md, like --set. `labels`: a network or a detections file, like --labels. Raises
-        ValueError with the program's own error message."""
+        keys of docs/configuration.md, like --set. `labels`: a network, a detections file or "none", like
+        --labels. Raises ValueError with the program's own error message."""
     @property
     def camera(self) -> Camera: ...
     def track(self, depth_m: NDArray[np.float32], colour: Optional[NDArray[np.uint8]], stamp_s: float,
@@ -231,7 +237,8 @@ def frames(source: Path, config: Optional[Path] = None, settings: Optional[Setti
 def run(source: Path, out: Optional[Path] = None, config: Optional[Path] = None, settings: Optional[Settings] = None,
         labels: Optional[Path] = None, start: int = 0, frames: Optional[int] = None, stride: int = 1) -> RunResult:
     """Like `tessera run SOURCE --out OUT`: writes the same files to `out` (docs/outputs.md); None writes nothing.
-    Ctrl-C ends the run after the current frame with complete files and then raises KeyboardInterrupt."""
+    Ctrl-C ends the run after the current frame with complete files and then raises KeyboardInterrupt. Raises ValueError
+    for a run that is refused, and RuntimeError for one that fails later: no frame can be read, the disk is full."""
 
 def read_mesh(path: Path) -> Mesh:
     """Reads a PLY file."""

@@ -67,7 +67,8 @@ class Live:
             words += ["--set", f"{key}={value}"]
         self._out = os.fspath(out)
         self._path = _GrowingLines(os.path.join(self._out, "trajectory.txt"))
-        self._lock = threading.Lock()
+        self._lock = threading.Lock()    # of what is sent
+        self._ending = threading.Lock()  # of what the program says at its end
         self._process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=None)
         self._sender = None
         try:
@@ -96,14 +97,16 @@ class Live:
         """Ends the scan and waits until everything is written. Returns the program's summary. Raises RuntimeError if
         it did not succeed; its messages are on stderr."""
         with self._lock:
+            self._sender = None
             if not self._process.stdin.closed:
                 try:
                     self._process.stdin.close()
                 except BrokenPipeError:
                     pass
+        with self._ending:
             summary = self._process.stdout.read().decode() if not self._process.stdout.closed else ""
             self._process.stdout.close()
-        code = self._process.wait()
+            code = self._process.wait()
         if code not in (0, 3):
             raise RuntimeError(f"tessera ended with exit code {code}")
         return summary

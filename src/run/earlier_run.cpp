@@ -13,6 +13,15 @@ namespace tessera {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// A run writes it first, and removes it last.
+bool HoldsRun(const std::string& folder) {
+    std::error_code ignored;
+    return fs::exists(folder + "/run.json", ignored);
+}
+
+// Names of the files in `folder` that a run into it writes anew, or leaves out, but for run.json.
 std::vector<std::string> ResultsIn(const std::string& folder) {
     std::vector<std::string> files;
     std::error_code ignored;
@@ -27,6 +36,30 @@ std::vector<std::string> ResultsIn(const std::string& folder) {
         add(name);
     for (int clock = 1; add(NumberedPath("trajectory.txt", clock));) ++clock;
     return files;
+}
+
+}  // namespace
+
+Status CheckOutputFolder(const std::string& source, const std::string& folder) {
+    std::error_code ignored;
+    if (fs::is_directory(source, ignored) && fs::equivalent(source, folder, ignored))
+        return Status::Error(
+            fmt::format("{}: is the folder of the recording itself, whose files a run must not "
+                        "replace; give another one with --out",
+                        folder));
+    if (HoldsRun(folder)) return Status::Ok();
+    if (const std::vector<std::string> files = ResultsIn(folder); !files.empty())
+        return Status::Error(
+            fmt::format("{}/{}: would be replaced, but is not of a run (there is no run.json "
+                        "beside it); move it away, or give another folder with --out",
+                        folder, files.front()));
+    return Status::Ok();
+}
+
+void RemoveEarlierRun(const std::string& folder) {
+    if (!HoldsRun(folder)) return;
+    std::error_code ignored;
+    for (const std::string& name : ResultsIn(folder)) fs::remove(folder + "/" + name, ignored);
 }
 
 bool HoldsCameraRun(const std::string& folder) {

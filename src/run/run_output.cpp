@@ -65,9 +65,7 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
                                                    const LabelClasses& classes) {
     if (Status status = PrepareOutputFolder(request.output_folder); !status.ok()) return status;
     std::unique_ptr<RunOutput> output(new RunOutput(request, config));
-    std::error_code ignored;
-    for (const std::string& name : ResultsIn(request.output_folder))
-        std::filesystem::remove(output->Path(name), ignored);
+    RemoveEarlierRun(request.output_folder);
     RunSummary unfinished;
     unfinished.source = source;
     unfinished.exit = "unfinished";

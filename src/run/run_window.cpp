@@ -33,6 +33,10 @@ void RunWindow::Show(const LabelClasses& classes) {
     if (viewer_ != nullptr) viewer_->classes.Push(LabelClasses(classes));
 }
 
+void RunWindow::ShowDetector(const std::string& name) {
+    if (viewer_ != nullptr) viewer_->detectors.Push(std::string(name));
+}
+
 void RunWindow::EndLabels() {
     if (viewer_ == nullptr) return;
     LabelUpdate update;

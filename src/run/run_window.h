@@ -23,6 +23,7 @@ class RunWindow {
     void Show(const LabelReport& report, const LabelClasses& classes);
     // Call at the start of a run with labels.
     void Show(const LabelClasses& classes);
+    void ShowDetector(const std::string& name);  // one that was chosen is in use
     void EndLabels();
     // Call at the end, after the map's owner has stopped.
     void ShowObjects(const std::vector<MapObject>& objects);

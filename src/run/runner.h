@@ -59,7 +59,7 @@ class Runner {
     void WarnOnStatusChange(const FrameReport& report);
 
     Status Finish(const Status& outcome);
-    // While a window is open, what the ended run holds can be saved.
+    // While a window is open, it gets the final mesh, and what the ended run holds can be saved.
     void ServeWindow(const std::atomic<bool>& stop);
     Result<AteResult> Evaluate() const;
     // Frames of this run that the final path does not have count as lost.

@@ -32,7 +32,10 @@ Status Runner::Take(const FrameOutcome& outcome) {
         case Kind::kSkipped: Skip(outcome.message); break;
         case Kind::kDropped: ++summary_.counts.frames, ++summary_.counts.dropped; break;
         case Kind::kMessage: Warn(outcome.message); break;
-        case Kind::kLabelsBegin: return BeginLabels(*outcome.classes);
+        case Kind::kLabels: TakeLabels(*outcome.labels); break;
+        case Kind::kLabelsBegin:
+            window_.ShowDetector(outcome.detector);
+            return BeginLabels(*outcome.classes);
         case Kind::kLabelsEnd: Warn(outcome.message), window_.EndLabels(); break;
         case Kind::kReset: return BeginAnew();
     }

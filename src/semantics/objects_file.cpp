@@ -40,6 +40,7 @@ MapObject ToObject(const Json& json) {
                 static_cast<std::uint8_t>(rgb)};
     o.probability = json.at("probability");
     o.observations = ToInt(json.at("observations"));
+    if (json.contains("vertices")) o.vertices = ToInt(json.at("vertices"));
     o.centroid = ToVector(json.at("centroid"));
     o.box = Eigen::AlignedBox3d(ToVector(json.at("aabb_min")), ToVector(json.at("aabb_max")));
     o.oriented_size = ToVector(json.at("obb_size"));

@@ -32,6 +32,7 @@ struct FrameOutcome {
         kSkipped,      // the frame could not be read; see `message`
         kDropped,      // live: a newer frame arrived before this one was tracked
         kMessage,      // text for the user
+        kLabels,       // live: what was detected in an earlier frame; see `labels`
         kLabelsEnd,    // the detector failed; see `message`
         kLabelsBegin,  // another detector is in use; see `classes`
         kReset,        // the map and the trajectory start again
@@ -49,7 +50,8 @@ struct FrameOutcome {
     double loops_ms = 0;
     MapStatistics map;
     std::shared_ptr<const LabelClasses> classes;  // of the run, with kLabelsBegin
-    std::optional<LabelReport> labels;  // of this frame; in live mode possibly of an earlier one
+    std::string detector;                         // its name, with kLabelsBegin
+    std::optional<LabelReport> labels;  // lockstep: of this frame; live: with kLabels only
     std::vector<std::pair<const char*, std::size_t>> queues;  // queue name and length
 };
 
@@ -89,6 +91,9 @@ class Engine {
     // After Next returned false, if the map is there: kSaveMesh and kSaveScan, as during the run.
     // Returns when the file is written.
     virtual void Save(const ViewerCommand& command) = 0;
+    // Likewise: sends the window a part of the final mesh, as far as its queue has room. Returns
+    // true when all of it was sent.
+    virtual bool SendFinalMesh() = 0;
     // After TakeMesh; empty without labels.
     virtual const std::vector<MapObject>& objects() const = 0;
     virtual MapStatistics map_statistics() const = 0;  // before TakeMesh

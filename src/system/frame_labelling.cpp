@@ -21,10 +21,11 @@ std::optional<LabelReport> FrameLabelling::TakeDetections() {
     return std::exchange(detected_, std::nullopt);
 }
 
-std::optional<DetectorChange> FrameLabelling::Choose(const std::string& name) {
-    if (std::exchange(chosen_, name) == name || name.empty()) return std::nullopt;
-    DetectorChange change = stage_.Change(name, open_);
-    if (change.classes) begun_ = change.classes;
+std::optional<DetectorChange> FrameLabelling::Choose(const ViewerSettings& settings) {
+    const int choice = settings.detector_choice;
+    if (std::exchange(choice_, choice) == choice || settings.detector.empty()) return std::nullopt;
+    DetectorChange change = stage_.Change(settings.detector, open_);
+    if (change.classes) begun_ = change;
     return change;
 }
 

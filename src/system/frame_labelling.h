@@ -4,6 +4,7 @@
 
 #include "system/labelling_stage.h"
 #include "system/tracking_stage.h"
+#include "system/viewer_settings.h"
 
 namespace tessera {
 
@@ -32,13 +33,14 @@ class FrameLabelling {
     const std::optional<LabelReport>& detected() const { return detected_; }
     std::int64_t frames() const { return frames_; }
 
-    // Replaces the detector, unless it is the one that was chosen last. Returns what came of it.
-    std::optional<DetectorChange> Choose(const std::string& name);
+    // Replaces the detector by the one that settings name, at each choice of one. Returns what came
+    // of it.
+    std::optional<DetectorChange> Choose(const ViewerSettings& settings);
 
     // Why the detector failed, once; else empty.
     std::string TakeFailure() { return std::exchange(failure_, {}); }
-    // The classes, once after another detector came into use; else null.
-    std::shared_ptr<const LabelClasses> TakeBegun() { return std::exchange(begun_, nullptr); }
+    // Once after another detector came into use; else without classes.
+    DetectorChange TakeBegun() { return std::exchange(begun_, {}); }
 
   private:
     LabelConfig config_;
@@ -46,8 +48,9 @@ class FrameLabelling {
     OpenDetectorFunction open_;
     LabellingStage stage_;
     std::optional<LabelReport> detected_;
-    std::string failure_, chosen_;
-    std::shared_ptr<const LabelClasses> begun_;
+    std::string failure_;
+    int choice_ = 0;  // ViewerSettings::detector_choice
+    DetectorChange begun_;
     std::int64_t frames_ = 0;
     bool owed_ = false;  // a frame that was due lacked colour
 };

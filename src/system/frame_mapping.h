@@ -94,6 +94,7 @@ class FrameMapping {
     std::size_t checkpoints_waiting() const { return scan_ ? scan_->waiting() : 0; }
     ViewerFeed& feed() { return feed_; }
     void SendMesh() { feed_.SendMesh(stage_); }
+    bool SendFinalMesh() { return feed_.SendFinalMesh(stage_); }
 
   private:
     Status StartPaging();

@@ -101,7 +101,8 @@ DetectorChange LabellingStage::Change(const std::string& name, const OpenDetecto
     broken_ = false;
     without_colour_ = 0;
     if (in_background_) detector_->WorkInBackground();
-    return {"objects are detected with " + name, std::make_shared<const LabelClasses>(classes_)};
+    return {"objects are detected with " + name, std::make_shared<const LabelClasses>(classes_),
+            name};
 }
 
 LabellingThread::LabellingThread(LabellingStage stage, OpenDetectorFunction open, Wake& mapping)

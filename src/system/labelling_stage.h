@@ -38,6 +38,7 @@ struct DetectorChange {
     std::string message;  // for the user
     // Of the run, if the detector is in use now. Null: the one before stays.
     std::shared_ptr<const LabelClasses> classes;
+    std::string detector = {};  // its name, if it is in use now
 };
 
 // What a run tells of a detector's failure.

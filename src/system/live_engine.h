@@ -22,6 +22,7 @@ class LiveEngine : public Engine {
     TriangleMesh TakeMesh() override;
     bool has_map() const override { return mapping_.life().stage().has_map(); }
     void Save(const ViewerCommand& command) override { mapping_.Save(command); }
+    bool SendFinalMesh() override { return mapping_.life().SendFinalMesh(); }
     const std::vector<MapObject>& objects() const override {
         return mapping_.life().stage().objects();
     }

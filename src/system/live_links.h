@@ -37,7 +37,7 @@ struct MappingTask {
     // Pose at which a lost camera was relocalised, in that map.
     std::optional<Eigen::Isometry3d> T_found_camera;
     std::optional<LabelSettings> labels;  // if they changed
-    std::string detector;                 // another one was chosen; else empty
+    std::string detector;                 // one was chosen; else empty
     ViewerCommand command;
 };
 

@@ -137,7 +137,6 @@ void LiveMapping::MapFrame(MappingTask& task) {
     life_.Report(*task.frame, tracked, outcome);
     outcome.decode_ms = task.decode_ms;
     outcome.latency_ms = task.latency_ms;
-    outcome.labels = std::exchange(labels_, std::nullopt);
     outcome.queues = {{"to tracking", links_.new_frames.load()},
                       {"to mapping", worker_ ? worker_->waiting() : 0},
                       {"to recorder", links_.to_recorder.load()}};
@@ -214,6 +213,7 @@ void LiveMapping::Reset() {
 // ---- The end.
 
 void LiveMapping::End() {
+    while (labelling_ && labelling_->has_answer()) TakeLabels();
     if (loops_ && !links_.quit.load() && !only_localise_) {
         const auto take_all = [this] {
             LoopThread::Update update;

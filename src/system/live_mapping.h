@@ -76,7 +76,6 @@ class LiveMapping {
     int world_ = 0;                               // number of resets
     std::vector<Eigen::Isometry3d> corrections_;  // T_new_old of each correction in this world
     std::optional<double> last_detection_s_;      // stamp of the last frame offered to labelling
-    std::optional<LabelReport> labels_;           // for the next outcome
     std::unique_ptr<LabellingThread> labelling_;  // null without labels
     OpenDetectorFunction open_detector_;
     MapCopier copier_;                           // for loop closure

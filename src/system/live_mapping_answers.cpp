@@ -38,6 +38,7 @@ void LiveMapping::TakeDetector(DetectorChange& change) {
     FrameOutcome outcome;
     outcome.kind = FrameOutcome::Kind::kLabelsBegin;
     outcome.classes = std::move(change.classes);
+    outcome.detector = std::move(change.detector);
     links_.outcomes.Push(std::move(outcome));
 }
 
@@ -65,7 +66,10 @@ void LiveMapping::TakeLabels(LabellingThread::Answer& answer) {
     if (!answer.report.moving.depth_m.empty())
         links_.hints.Push({std::move(answer.report.moving), job.T_world_camera, version()});
     if (loops_) loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
-    labels_ = std::move(answer.report);
+    FrameOutcome outcome;
+    outcome.kind = FrameOutcome::Kind::kLabels;
+    outcome.labels = std::move(answer.report);
+    links_.outcomes.Push(std::move(outcome));
 }
 
 bool LiveMapping::UpdateFits() const {

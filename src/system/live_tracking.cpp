@@ -80,7 +80,7 @@ void LiveTracking::Track(NewFrame& item) {
     MappingTask task;
     task.tracked = links_.tracked_frames.Take();
     task.labels = std::exchange(state_->labels, std::nullopt);
-    if (std::exchange(state_->detector_changed, false)) task.detector = state_->detector;
+    task.detector = std::exchange(state_->detector, {});
     task.T_found_camera = TakeRelocalisation(frame.stamp_s);
     life.SetSeeking(state_->seeking && state_->looked_for && !task.T_found_camera);
     life.Begin(frame);
@@ -112,8 +112,9 @@ void LiveTracking::TakeSettings() {
     state_->life.stage().Apply(settings);
     links_.show_prediction.store(settings.show_prediction);
     state_->labels = settings.labels;
-    state_->detector_changed |= settings.detector != state_->detector;
-    state_->detector = settings.detector;
+    if (std::exchange(state_->detector_choice, settings.detector_choice) !=
+        settings.detector_choice)
+        state_->detector = settings.detector;
     state_->seeking = settings.loops.value_or(true);
     if (loops_ != nullptr) loops_->SetSeeking(state_->seeking);
 }

@@ -47,8 +47,8 @@ class LiveTracking {
         // long that takes.
         bool looked_for = false;
         std::optional<LabelSettings> labels;  // new ones for mapping
-        std::string detector;                 // as last chosen
-        bool detector_changed = false;        // since the last task for mapping
+        std::string detector;                 // chosen since the last task for mapping; else empty
+        int detector_choice = 0;              // ViewerSettings::detector_choice
     };
 
     void TakeCommands();

@@ -123,9 +123,10 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
         outcome.message = std::move(*message);
         return true;
     }
-    if (std::shared_ptr<const LabelClasses> classes = labelling_.TakeBegun()) {
+    if (DetectorChange begun = labelling_.TakeBegun(); begun.classes) {
         outcome.kind = FrameOutcome::Kind::kLabelsBegin;
-        outcome.classes = std::move(classes);
+        outcome.classes = std::move(begun.classes);
+        outcome.detector = std::move(begun.detector);
         return true;
     }
     const std::string failure = labelling_.TakeFailure();
@@ -143,7 +144,7 @@ void LockstepEngine::Apply(const ViewerSettings& settings) {
     if (loops_) loops_->Switch(loops_on_);
     mapping_.feed().ShowPrediction(settings.show_prediction);
     // Also without labels so far: then they begin here.
-    if (std::optional<DetectorChange> change = labelling_.Choose(settings.detector)) {
+    if (std::optional<DetectorChange> change = labelling_.Choose(settings)) {
         notices_.Tell(std::move(change->message));
         if (change->classes && !mapping_.stage().has_labels()) EnableLabels(*change->classes);
     }

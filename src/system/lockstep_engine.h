@@ -24,6 +24,7 @@ class LockstepEngine : public Engine {
     TriangleMesh TakeMesh() override;
     bool has_map() const override { return mapping_.stage().has_map(); }
     void Save(const ViewerCommand& command) override;
+    bool SendFinalMesh() override { return mapping_.SendFinalMesh(); }
     const std::vector<MapObject>& objects() const override { return mapping_.stage().objects(); }
     std::vector<StampedPose> CorrectedPath() const override;
     std::optional<CalibrationReport> calibration() const override {

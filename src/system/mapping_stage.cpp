@@ -138,6 +138,12 @@ int MappingStage::UpdateMesh(int budget_blocks, MeshUpdate& update) {
     return waiting;
 }
 
+void MappingStage::MeshAgain() {
+    mesher_.Clear();
+    geometry_.Clear();
+    mesh_cleared_ = true;
+}
+
 std::vector<MapObject> MappingStage::MeasureObjects() const {
     if (!labels_) return {};
     TriangleMesh labelled = labels_->LabelledVertices(*map_, mesher_.block_meshes());
@@ -207,11 +213,9 @@ void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelM
 void MappingStage::Place(std::unique_ptr<BlockMap> map) {
     map_ = std::move(map);
     following_.reset();
-    mesher_.Clear();
-    geometry_.Clear();
     if (labels_) ++labels_revision_;
     ForgetDelta();
-    mesh_cleared_ = true;
+    MeshAgain();
 }
 
 void MappingStage::Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_frames) {
@@ -222,14 +226,12 @@ void MappingStage::Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_fra
 void MappingStage::Reset() {
     map_->Clear();
     following_.reset();
-    mesher_.Clear();
-    geometry_.Clear();
     if (labels_) {
         labels_->Reset();
         ++labels_revision_;
     }
     ForgetDelta();
-    mesh_cleared_ = true;
+    MeshAgain();
 }
 
 }  // namespace tessera

@@ -28,6 +28,7 @@ struct MeshUpdate {
     bool clear = false;  // first discard all earlier blocks
     // With these blocks, all that the map had when the earlier ones were discarded have been sent.
     bool whole = true;
+    bool last = false;  // the run has ended, and with these blocks all of its final mesh was sent
     std::vector<GeometryBlock> blocks;
 };
 
@@ -84,6 +85,8 @@ class MappingStage {
 
     // Remeshes at most `budget_blocks` changed blocks into `update`. Returns how many still wait.
     int UpdateMesh(int budget_blocks, MeshUpdate& update);
+    // Discards the meshes made so far: calls of UpdateMesh make all of them again.
+    void MeshAgain();
 
     // The whole mesh up to the last fused frame, without small pieces.
     TriangleMesh Mesh() const;

@@ -1,6 +1,7 @@
 #include "system/viewer_feed.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/stopwatch.h"
 
@@ -22,6 +23,18 @@ double ViewerFeed::SendMesh(MappingStage& mapping) {
     if (update.clear || !update.blocks.empty()) viewer_->meshes.TryPush(std::move(update));
     SendObjects(mapping);
     return watch.LapMs();
+}
+
+bool ViewerFeed::SendFinalMesh(MappingStage& mapping) {
+    constexpr int kBlocks = 1000;  // no frame waits any more
+    if (viewer_ == nullptr) return true;
+    if (!std::exchange(final_begun_, true)) mapping.MeshAgain();
+    while (!final_sent_ && viewer_->meshes.size() < viewer_->meshes.capacity()) {
+        MeshUpdate update;
+        final_sent_ = update.last = mapping.UpdateMesh(kBlocks, update) == 0;
+        viewer_->meshes.TryPush(std::move(update));
+    }
+    return final_sent_;
 }
 
 // At most twice a second, by the frames' stamps, so that lockstep sends the same on every run.

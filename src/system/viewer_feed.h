@@ -21,6 +21,10 @@ class ViewerFeed {
     // Sends changes of the mesh and objects; also works without a frame.
     double SendMesh(MappingStage& mapping);
 
+    // Call after the last frame and correction, until it returns true: sends the whole mesh anew, a
+    // part each time, as the window takes it. False: more is to come.
+    bool SendFinalMesh(MappingStage& mapping);
+
   private:
     void SendObjects(const MappingStage& mapping);
     void SendImages(const Frame& frame, const FrameReport& report, const MappingStage& mapping);
@@ -28,6 +32,7 @@ class ViewerFeed {
     ViewerLink* viewer_;
     int mesh_blocks_;
     bool show_prediction_ = true;
+    bool final_begun_ = false, final_sent_ = false;
     std::uint64_t objects_revision_ = 0;     // of the labels, when objects were last sent
     double stamp_s_ = 0;                     // of the last frame
     std::optional<double> objects_stamp_s_;  // when objects were last sent

@@ -95,10 +95,13 @@ struct ViewerLink {
     // System to viewer. One thread pushes frames and messages.
     NewestQueue<FrameUpdate> frames{256, viewer};
     NewestQueue<ImageUpdate> images{1, viewer};
-    FifoQueue<MeshUpdate> meshes{4, viewer};  // if full, changes stay in the mesher
+    // By the map's owner, which is the run's thread at the end. If full, changes stay in the
+    // mesher.
+    FifoQueue<MeshUpdate> meshes{4, viewer};
     // Pushed by the thread that pushes frames.
     NewestQueue<LabelUpdate> labels{64, viewer};
-    NewestQueue<LabelClasses> classes{1, viewer};  // of a run with labels, at its start
+    NewestQueue<LabelClasses> classes{1, viewer};   // of a run with labels, at its start
+    NewestQueue<std::string> detectors{1, viewer};  // names of those chosen that came into use
     // All objects, by number. Pushed by the map's owner; at the end, by the thread that pushes
     // frames.
     NewestQueue<std::vector<MapObject>> objects{1, viewer};

@@ -24,8 +24,10 @@ struct ViewerSettings {
     bool show_prediction = true;  // fill ImageUpdate::predicted
     IcpTracker::Prediction prediction = IcpTracker::Prediction::kRayCast;
     LabelSettings labels;  // of a run with labels
-    // As for --labels: what to detect objects with from now on. Empty, or what it was: no change.
+    // As for --labels: what to detect objects with from now on. It is opened when `detector_choice`
+    // changes, also if it is the same again: it may have failed. Empty: no change.
     std::string detector;
+    int detector_choice = 0;  // how many were chosen so far
 };
 
 }  // namespace tessera

@@ -29,7 +29,7 @@ constexpr Line kLines[] = {
     {"D", "see through surfaces on/off"},
     {"B", "object boxes and names on/off"},
     {"X", "cut: hide a part of the surface on/off"},
-    {"L", "measure by clicks on/off, once the run has ended"},
+    {"L", "measure by clicks on/off, once the final mesh is there"},
     {"Enter", "measuring: the next click begins anew"},
     {"Backspace", "measuring: take the last click back"},
     {"G", "finish: make a clean, textured model of a finished run"},

@@ -22,12 +22,10 @@ bool SceneMesh::Take(ViewerLink& link, std::size_t most_bytes) {
     while (bytes < most_bytes) {
         if (pending_done_ == pending_.blocks.size() && !NextUpdate(link)) break;
         bytes += Upload(most_bytes - bytes);
-        if (pending_done_ == pending_.blocks.size() && pending_.whole) before_.reset();
-        any = true;
-    }
-    // After a run nothing more may come.
-    if (before_ && link.ended && link.meshes.empty() && pending_done_ == pending_.blocks.size()) {
-        before_.reset();
+        if (pending_done_ == pending_.blocks.size()) {
+            if (pending_.whole) before_.reset();
+            is_final_ |= pending_.last;
+        }
         any = true;
     }
     return any;

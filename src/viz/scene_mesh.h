@@ -26,6 +26,7 @@ class SceneMesh {
     // stays queued. Where the map was replaced, the surface before is shown until all of the new
     // one is here. True if anything arrived.
     bool Take(ViewerLink& link, std::size_t most_bytes);
+    bool is_final() const { return is_final_; }  // the run has ended, and all of its mesh is here
     // `location`: of the uniform clip_from_position.
     void Draw(const Eigen::Matrix4d& clip, const Eigen::Isometry3d& T_world_view, int location);
 
@@ -55,6 +56,7 @@ class SceneMesh {
     GlTriangleMesh model_;
     MeshUpdate pending_;
     std::size_t pending_done_ = 0;
+    bool is_final_ = false;
 };
 
 }  // namespace tessera

@@ -72,6 +72,7 @@ const Coverage& SceneView::coverage() const { return impl_->mesh.coverage(); }
 ViewCamera& SceneView::camera() { return impl_->camera; }
 unsigned SceneView::texture() const { return impl_->target.texture(); }
 std::size_t SceneView::triangles() const { return impl_->mesh.triangles(); }
+bool SceneView::has_final_mesh() const { return impl_->mesh.is_final(); }
 
 void SceneView::SetModel(const ViewedModel& model) {
     const MeshView view = ChooseView(model.mesh, model.path);

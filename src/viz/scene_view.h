@@ -24,6 +24,7 @@ class SceneView {
     // Takes mesh updates from the link and uploads about `most_bytes` of them at most; the rest
     // stays queued. True if anything arrived.
     bool TakeMesh(ViewerLink& link, std::size_t most_bytes);
+    bool has_final_mesh() const;  // the link's run has ended, and all of its mesh is here
     // Moves the camera behind the sensor if following is on. True if it moved.
     bool Follow(const ViewerState& state, double since_s);
     // Moves the camera so that all of the mesh is visible, or of the part of the scan where the

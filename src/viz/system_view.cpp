@@ -46,6 +46,7 @@ bool SystemView::TakeLabels(ViewerLink& link, double now_s) {
         labels_.stopped = false;
         any = true;
     }
+    any |= link.detectors.TryPop(detector_);
     std::vector<MapObject> objects;
     while (link.objects.TryPop(objects)) {
         SetObjects(std::move(objects));

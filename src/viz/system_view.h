@@ -55,8 +55,9 @@ class SystemView {
     std::uint64_t images_taken() const { return images_taken_; }
     const std::vector<MapObject>& objects() const { return objects_; }  // sorted by number
     std::uint64_t objects_taken() const { return objects_taken_; }
-    const LabelUpdate& labels() const { return labels_; }     // with the newest detections
-    const LabelClasses& classes() const { return classes_; }  // none without labels
+    const LabelUpdate& labels() const { return labels_; }      // with the newest detections
+    const LabelClasses& classes() const { return classes_; }   // none without labels
+    const std::string& detector() const { return detector_; }  // in use, if chosen during the run
     // Frames processed by the detector per second, over the last seconds; 0: not known yet.
     double detections_per_s() const { return detections_per_s_; }
     const RecentFrames& recent() const { return recent_; }
@@ -78,6 +79,7 @@ class SystemView {
     ImageUpdate images_;
     LabelUpdate labels_;
     LabelClasses classes_;
+    std::string detector_;
     std::vector<MapObject> objects_;
     std::uint64_t objects_taken_ = 0;
     std::deque<double> detected_s_;

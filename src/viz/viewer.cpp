@@ -128,6 +128,7 @@ void Viewer::Impl::TakeFromLink(ViewerLink& link) {
     if (state.system.Take(link, state.now_s)) DrawAtLeast(1);
     constexpr std::size_t kBytesPerRound = std::size_t{4} << 20;
     if (scene->TakeMesh(link, kBytesPerRound)) DrawAtLeast(1);
+    state.has_final_mesh = scene->has_final_mesh();
     if (state.ended() != ended_seen || state.paused() != paused_seen) DrawAtLeast(kSettlingRounds);
     ended_seen = state.ended();
     paused_seen = state.paused();

@@ -55,6 +55,7 @@ void ViewerState::UseClass(int id, bool on) {
 // Labelling that was off begins again.
 void ViewerState::UseDetector(const std::string& name) {
     settings.detector = name;
+    ++settings.detector_choice;
     settings.labels.on = true;
     SendSettings();
 }

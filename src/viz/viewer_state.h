@@ -62,6 +62,7 @@ struct ViewerState {
     ViewerSettings settings;              // as last sent
     std::array<char, 1024> typed_path{};  // of a detector
     int selected_object = 0;              // MapObject::id; 0: none
+    bool has_final_mesh = false;          // of the run, all of it
     bool ask_reset = false, show_help = false, close = false, want_screenshot = false;
 
     bool ended() const { return !link || link->ended; }
@@ -85,9 +86,9 @@ struct ViewerState {
     void RasteriseViews(bool on);
     void UseClass(int id, bool on);
     void UseDetector(const std::string& name);
-    // The one in use, or last chosen; empty: none.
+    // The one in use, which a chosen one is not before it is open; empty: none.
     const std::string& detector() const {
-        return settings.detector.empty() ? options.detector : settings.detector;
+        return system.detector().empty() ? options.detector : system.detector();
     }
     void TogglePause();
     void Step();
@@ -106,7 +107,7 @@ struct ViewerState {
     const std::string* note() const;
     void SwitchView();  // between kScan and kExpert
     // Once the surface no longer changes.
-    bool can_measure() const { return ended(); }
+    bool can_measure() const { return !link || has_final_mesh; }
     void ToggleMeasuring();
     void ReadMeasurementsOnce();
     void ToggleCut();

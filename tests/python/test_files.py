@@ -91,6 +91,30 @@ class Runs(InFolder):
         with self.assertRaisesRegex(ValueError, "not a built-in scene"):
             tessera.run("synthetic:nowhere")
 
+    def test_a_run_that_fails_later_is_no_wrong_argument(self):
+        out = self.folder / "out"
+        (out / "mesh.ply" / "in_the_way").mkdir(parents=True)
+        with self.assertRaisesRegex(ValueError, "mesh.ply: would be replaced"):
+            tessera.run(SOURCE, out, settings=SETTINGS, frames=2)
+        (out / "run.json").write_text("{}")
+        with self.assertRaisesRegex(RuntimeError, "mesh.ply"):
+            tessera.run(SOURCE, out, settings=SETTINGS, frames=2)
+
+    def test_labels_can_be_none_as_for_the_program(self):
+        tessera.run(SOURCE, self.folder / "out", settings=SETTINGS, frames=2, labels="none")
+        self.assertFalse((self.folder / "out" / "detections.txt").exists())
+        tessera.Scanner(CAMERA, settings=SETTINGS, labels="none").finish()
+
+    def test_all_that_a_file_says_of_an_object(self):
+        thing = {"id": 1, "class_id": 2, "class": "cup", "colour": "#010203", "probability": 0.5, "observations": 3,
+                 "vertices": 40, "centroid": [0, 0, 1], "aabb_min": [0, 0, 0], "aabb_max": [1, 1, 2],
+                 "obb_size": [1, 1, 2], "obb_centre": [0, 0, 1], "obb_quaternion_xyzw": [0, 0, 0, 1]}
+        (self.folder / "objects.json").write_text(json.dumps([thing, {**thing, "embedding": [0.6, -0.8]}]))
+        without, given = tessera.read_objects(self.folder / "objects.json")
+        self.assertEqual((without.vertices, given.vertices), (40, 40))
+        np.testing.assert_array_equal(without.embedding, np.zeros(0, np.float32))
+        np.testing.assert_array_equal(given.embedding, np.array([0.6, -0.8], np.float32))
+
     def test_objects_of_a_run_with_labels(self):
         tessera.run(SOURCE, self.folder / "out", settings=SETTINGS, labels="synthetic")
         objects = tessera.read_objects(self.folder / "out" / "objects.json")

@@ -5,6 +5,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -156,6 +157,8 @@ class Sender(unittest.TestCase):
             os.mkdir(out)
             with open(out + "/trajectory.txt", "w", encoding="ascii") as earlier:
                 earlier.write("1 0 0 0 0 0 0 1\n")
+            with open(out + "/run.json", "w", encoding="ascii") as mark:
+                mark.write("{}")
             with tessera.live.Live(scene[0].camera, out, options=["--mode", "lockstep"], depth_scale=5000,
                                    settings={"mapping.voxel_size_m": 0.04, "mapping.truncation_m": 0.16}) as live:
                 for frame in scene:
@@ -165,11 +168,43 @@ class Sender(unittest.TestCase):
             self.assertEqual(list(poses[:, 0]), list(live.trajectory().stamps_s))
             np.testing.assert_allclose(poses[:, 1:4], live.trajectory().T_world_camera[:, :3, 3], atol=1e-6)
             self.assertGreater(len(live.mesh().triangles), 1000)
-            with self.assertRaises((BrokenPipeError, ValueError)):
+            with self.assertRaisesRegex(BrokenPipeError, "the scan has ended"):
                 live.push(np.zeros((120, 160), np.uint16), None, 99.0)
             failing = tessera.live.Live(scene[0].camera, out, options=["--tracker", "none"])
             with self.assertRaisesRegex(RuntimeError, "exit code 2"):
                 failing.finish()
+
+    def test_a_push_while_a_live_scan_ends_does_not_wait_for_it(self):
+        """The program, a script here, says that its input has ended, and then takes long to end."""
+        import tessera.live
+        with tempfile.TemporaryDirectory() as folder:
+            program, ended, may_end = (os.path.join(folder, name) for name in ("program", "ended", "may_end"))
+            os.mkfifo(ended)
+            os.mkfifo(may_end)
+            with open(program, "w", encoding="ascii") as script:
+                script.write(f"#!/bin/sh\ncat > /dev/null\n: > {ended}\ncat {may_end}\necho done\n")
+            os.chmod(program, 0o700)
+            live = tessera.live.Live(tessera.Camera(6, 4, 5, 5, 2.5, 1.5), folder + "/o", program=program)
+            summaries, refused = [], threading.Event()
+
+            def push():
+                try:
+                    live.push(np.zeros((4, 6), np.uint16), None, 1.0)
+                except BrokenPipeError:
+                    refused.set()
+
+            ending = threading.Thread(target=lambda: summaries.append(live.finish()), daemon=True)
+            ending.start()
+            with open(ended, "rb") as file:
+                file.read()
+            threading.Thread(target=push, daemon=True).start()
+            was_refused = refused.wait(30)
+            self.assertEqual(summaries, [])
+            with open(may_end, "wb"):
+                pass
+            ending.join()
+            self.assertTrue(was_refused)
+            self.assertEqual(summaries, ["done\n"])
 
     def test_the_program_scans_what_is_sent(self):
         """Over a socket, with compressed depth, in both modes."""

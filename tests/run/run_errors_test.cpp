@@ -38,6 +38,42 @@ TEST_F(Run, ARefusedRunSaysOneThingAndLeavesEarlierResults) {
     EXPECT_TRUE(ReadAll(Out("mesh.ply")) == mesh);
 }
 
+TEST_F(Run, FilesThatAreNotOfARunAreNotReplaced) {
+    fs::create_directories(request.output_folder);
+    observer.on_open = [](const SourceInfo&) { ADD_FAILURE() << "on_open was called"; };
+    for (const char* name : {"detections.txt", "objects.json", "mesh.ply", "trajectory_1.txt"}) {
+        std::ofstream(Out(name)) << "mine";
+        const std::string why = Execute().message();
+        EXPECT_NE(why.find(Out(name) + ": would be replaced"), std::string::npos) << why;
+        EXPECT_NE(why.find("--out"), std::string::npos) << why;
+        EXPECT_EQ(ReadAll(Out(name)), "mine");
+        EXPECT_FALSE(fs::exists(Out("run.json")));
+        fs::remove(Out(name));
+    }
+    observer.on_open = {};
+    // A run that was killed had written run.json first.
+    std::ofstream(Out("notes.txt")) << "mine";
+    std::ofstream(Out("detections.txt")) << "its";
+    std::ofstream(Out("run.json")) << R"({"exit": "unfinished"})";
+    ASSERT_TRUE(Execute().ok());
+    EXPECT_FALSE(fs::exists(Out("detections.txt")));
+    EXPECT_EQ(ReadAll(Out("notes.txt")), "mine");
+}
+
+TEST_F(Run, TheRecordingsOwnFolderIsRefused) {
+    request.record_path = folder / "raw";
+    ASSERT_TRUE(Execute().ok());
+    request.record_path.clear();
+    request.source = folder / "raw";
+    request.output_folder = folder / "out/../raw";
+    std::ofstream(folder / "raw/run.json") << "{}";  // as earlier versions left one
+    std::ofstream(folder / "raw/detections.txt") << "mine";
+    const std::string why = Execute().message();
+    EXPECT_NE(why.find("is the folder of the recording itself"), std::string::npos) << why;
+    EXPECT_EQ(ReadAll(folder / "raw/detections.txt"), "mine");
+    EXPECT_EQ(ReadAll(folder / "raw/run.json"), "{}");
+}
+
 // Its window never opens, so nobody would close it.
 TEST_F(Run, ARefusedRunDoesNotWaitForAWindow) {
     ViewerLink link;

@@ -148,6 +148,7 @@ TEST_F(Run, TheTrajectoryGrowsFrameByFrame) {
         EXPECT_FALSE(fs::exists(Out("mesh.ply")));  // not even one from an earlier run
     };
     fs::create_directories(request.output_folder);
+    std::ofstream(Out("run.json")) << "{}";
     std::ofstream(Out("mesh.ply")) << "stale";
     ASSERT_TRUE(Execute().ok());
     ASSERT_EQ(sizes.size(), 6u);

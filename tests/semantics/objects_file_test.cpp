@@ -12,7 +12,7 @@ namespace {
 MapObject Cup() {
     MapObject o;
     o.id = 7, o.class_id = 3, o.class_name = "cup", o.colour = {177, 70, 194};
-    o.probability = 0.75, o.observations = 12;
+    o.probability = 0.75, o.observations = 12, o.vertices = 345;
     o.centroid = {1, 2, 3};
     o.box = Eigen::AlignedBox3d(Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(2, 3, 4));
     o.T_world_oriented =
@@ -45,6 +45,7 @@ TEST(ObjectsFile, ReadsWhatWasWritten) {
     EXPECT_EQ(o.class_name, "cup");
     EXPECT_EQ(o.colour, cup.colour);
     EXPECT_EQ(o.observations, 12);
+    EXPECT_EQ(o.vertices, 345);
     EXPECT_DOUBLE_EQ(o.probability, 0.75);
     EXPECT_TRUE(o.centroid.isApprox(cup.centroid));
     EXPECT_TRUE(o.box.isApprox(cup.box));

@@ -1,4 +1,6 @@
 // Another detector is chosen while a run is in progress, or the first one.
+#include <atomic>
+
 #include "system/engine_fixture.h"
 
 namespace tessera {
@@ -46,7 +48,11 @@ class DetectorChangeLabelling : public EngineTest, public testing::WithParamInte
         config.labels = CupsAndBooks();
         config.labels.max_rate_hz = 1000;
         EngineInput input = Input({.live = true});
-        input.open_detector = OpenOneThing;
+        input.open_detector = [this](const std::string& name) -> Result<Labelling> {
+            if (name != "late") return OpenOneThing(name);
+            if (++tries == 1) return Status::Error("late: not there yet");
+            return OpenOneThing("book");
+        };
         if (with_labels) input.labelling = std::move(OpenOneThing("cup").value());
         if (GetParam())
             engine = std::make_unique<LiveEngine>(std::move(input));
@@ -54,13 +60,13 @@ class DetectorChangeLabelling : public EngineTest, public testing::WithParamInte
             engine = std::make_unique<LockstepEngine>(std::move(input));
     }
     void Choose(const std::string& detector) {
-        ViewerSettings settings;
         settings.detector = detector;
-        link.settings.Push(std::move(settings));
+        ++settings.detector_choice;
+        link.settings.Push(ViewerSettings(settings));
     }
-    // Runs on until a frame with this detection, at most `most` outcomes.
+    // Runs on until there is this detection, at most `most` outcomes other than detections.
     bool Detects(const std::string& name, int most = 400) {
-        for (int i = 0; i < most && Next(); ++i) {
+        for (int i = 0; i < most && Next(); i += outcomes.back().kind != Kind::kLabels) {
             const auto& labels = outcomes.back().labels;
             if (labels && labels->detections.size() == 1 && labels->detections[0].name == name)
                 return true;
@@ -68,7 +74,7 @@ class DetectorChangeLabelling : public EngineTest, public testing::WithParamInte
         return false;
     }
     bool Says(const std::string& text, int most = 400) {
-        for (int i = 0; i < most && Next(); ++i)
+        for (int i = 0; i < most && Next(); i += outcomes.back().kind != Kind::kLabels)
             if (outcomes.back().message.find(text) != std::string::npos) return true;
         return false;
     }
@@ -80,6 +86,8 @@ class DetectorChangeLabelling : public EngineTest, public testing::WithParamInte
     }
 
     ViewerLink link;
+    ViewerSettings settings;
+    std::atomic<int> tries{0};  // to open "late"
 };
 
 TEST_P(DetectorChangeLabelling, AnotherTakesOver) {
@@ -101,6 +109,27 @@ TEST_P(DetectorChangeLabelling, OneThatCannotBeOpenedChangesNothing) {
     ASSERT_TRUE(Says("knows none of the classes"));
     ASSERT_TRUE(Detects("cup"));
     EXPECT_EQ(Count(Kind::kLabelsBegin), 0);
+    End();
+}
+
+// Only when the user says so: all settings are sent together.
+TEST_P(DetectorChangeLabelling, OneThatWasRefusedIsTriedAgainWhenItIsChosenAgain) {
+    Begin(true);
+    ASSERT_TRUE(Detects("cup"));
+    Choose("late");
+    ASSERT_TRUE(Says("the detector was not changed: late: not there yet"));
+    settings.max_depth_m = 4;
+    link.settings.Push(ViewerSettings(settings));
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(Detects("cup"));
+    EXPECT_EQ(tries, 1);
+    Choose("late");
+    ASSERT_TRUE(Detects("book"));
+    EXPECT_EQ(tries, 2);
+    ASSERT_EQ(Count(Kind::kLabelsBegin), 1);
+    for (const FrameOutcome& o : outcomes)
+        if (o.kind == Kind::kLabelsBegin) {
+            EXPECT_EQ(o.detector, "late");
+        }
     End();
 }
 

@@ -119,6 +119,33 @@ TEST_F(LiveMappingTest, LabelsGoOnAfterTheClockWasSetBack) {
     mapping.Finish();
 }
 
+// Each answer is reported when it is taken, also one that comes after the last frame. With a device
+// the test says when answers are taken.
+TEST_F(LiveMappingTest, EveryAnswerOfTheDetectorIsReported) {
+    std::vector<std::promise<double>> looked(3);
+    CpuBackend device;
+    LiveMapping mapping(config, source, &device, nullptr, links);
+    ASSERT_TRUE(mapping.Start(Cups(std::make_unique<TellingDetector>(looked)), {}, {}).ok());
+    const auto labelled = [&] {
+        std::vector<double> stamps_s;
+        for (FrameOutcome outcome; links.outcomes.TryPop(outcome);)
+            if (outcome.labels) stamps_s.push_back(outcome.labels->stamp_s);
+        return stamps_s;
+    };
+    const auto send = [&](double stamp_s) {
+        mapping.Send(Task(stamp_s, stamp_s == 1, true));
+        links.mapping.Wait([&] { return mapping.HasAnswersToTake(); });
+    };
+    for (const double stamp_s : {1.0, 2.0}) {
+        send(stamp_s);
+        while (mapping.HasAnswersToTake()) mapping.TakeAnswersHere();
+        EXPECT_EQ(labelled(), std::vector{stamp_s});
+    }
+    send(3);
+    mapping.Finish();
+    EXPECT_EQ(labelled(), std::vector{3.0});
+}
+
 TEST_F(LiveMappingTest, AFrameThatWaitedWhenTheDetectorFailedOnlyComesBack) {
     std::promise<void> begun, fail;
     Labelling cups = Cups(std::make_unique<FailingDetector>(begun, fail));

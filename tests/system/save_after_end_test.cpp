@@ -1,5 +1,6 @@
 // What the user saves after a run has ended, while its window is still open.
 #include <filesystem>
+#include <map>
 
 #include "io/mesh_io.h"
 #include "run/scan_export.h"
@@ -47,6 +48,42 @@ TEST_P(SaveAfterEnd, MeshAndScanAreThoseOfTheRun) {
     ASSERT_TRUE(stored.ok()) << stored.message();
     EXPECT_EQ(stored.value().triangles.size(), mesh.triangles.size());
     EXPECT_EQ(path.size(), Reports().size());
+}
+
+// However little of the map was meshed during the run.
+TEST_P(SaveAfterEnd, TheWindowGetsAllOfTheFinalMesh) {
+    viewer = &link;
+    config.live.mesh_blocks = 1;
+    config.live.queue_frames = 30;
+    config.meshing.min_component_triangles = 0;
+    Make(GetParam(), {.count = 12});
+    std::map<BlockId, std::size_t> triangles;
+    bool last = false, whole = false;
+    const auto take = [&] {
+        for (MeshUpdate update; link.meshes.TryPop(update);) {
+            EXPECT_FALSE(last) << "there is more";
+            last = update.last, whole = update.whole;
+            if (update.clear) triangles.clear();
+            for (const GeometryBlock& block : update.blocks)
+                triangles[block.id] = block.geometry.indices.size() / 3;
+        }
+        std::size_t all = 0;
+        for (const auto& [id, count] : triangles) all += count;
+        return all;
+    };
+    while (Next()) take();
+    engine->KeepMap();
+    const TriangleMesh mesh = engine->TakeMesh();
+    ASSERT_LT(take(), mesh.triangles.size() / 2);
+    EXPECT_FALSE(last);
+    for (std::size_t i = 0; i < link.meshes.capacity(); ++i) link.meshes.TryPush({});
+    EXPECT_FALSE(engine->SendFinalMesh());  // there is no room
+    take();
+    for (bool sent = false; !sent; take()) sent = engine->SendFinalMesh();
+    EXPECT_TRUE(last && whole);
+    EXPECT_EQ(take(), mesh.triangles.size());
+    EXPECT_TRUE(engine->SendFinalMesh());
+    EXPECT_TRUE(link.meshes.empty());
 }
 
 TEST_P(SaveAfterEnd, OfARunThatOnlyLocalisedAMeshButNoScan) {

@@ -126,6 +126,23 @@ TEST_F(ViewerFeedTest, ColoursByLabelAreThoseOfTheMesh) {
     EXPECT_GT(static_cast<double>(found), 0.95 * static_cast<double>(mesh.vertices.size()));
 }
 
+// They were measured on all of it before.
+TEST_F(ViewerFeedTest, TheFinalMeshHasItsLabelsAndNoObjectsAreSentWithIt) {
+    config.live.mesh_blocks = 100000;
+    MakeLabelled(30);
+    while (NextTaken()) {
+    }
+    const auto colours = Colours();
+    engine->KeepMap();
+    engine->TakeMesh();
+    sent.clear();
+    blocks.clear();
+    for (bool all = false; !all; TakeMeshes()) all = engine->SendFinalMesh();
+    EXPECT_EQ(Colours(), colours);
+    EXPECT_GT(CountOf(kBook), 500);
+    EXPECT_TRUE(sent.empty());
+}
+
 TEST_F(ViewerFeedTest, ObjectsAreSentOnceTheyAreKnown) {
     MakeLabelled(30);
     while (NextTaken()) {

@@ -1,4 +1,6 @@
 // Tests of what the window shows when the map is replaced.
+#include <X11/keysym.h>
+
 #include "viz/window_fixture.h"
 
 namespace tessera {
@@ -30,12 +32,27 @@ TEST_F(ViewerMesh, AReplacedMeshDoesNotVanishFirst) {
     EXPECT_LT(share(), 0.02);  // the path
 }
 
-TEST_F(ViewerMesh, AfterTheEndTheNewMeshIsShownAsFarAsItCame) {
+// Part of a room looks like a smaller room. What is whole is shown, and can be measured when it is
+// the final mesh.
+TEST_F(ViewerMesh, AfterTheEndTheMeshBeforeStaysUntilTheFinalOneIsWhole) {
+    const auto share = [&] {
+        Rounds(3);
+        return Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); });
+    };
     Frames(3);
+    const double before = share();
+    ASSERT_GT(before, 0.2);
     link_.meshes.TryPush({.voxel_size_m = 0.04, .clear = true, .whole = false, .blocks = {}});
     link_.ended = true;
-    Rounds(3);
-    EXPECT_LT(Share(viewer_->Picture(), [](const Rgb8& c) { return !IsBackground(c); }), 0.02);
+    EXPECT_NEAR(share(), before, 0.01);
+    MoveTo("view");
+    Key(XK_l);
+    EXPECT_FALSE(FindControl("tools"));
+    EXPECT_FALSE(FindControl("measure"));
+    link_.meshes.TryPush({.voxel_size_m = 0.04, .whole = true, .last = true, .blocks = {}});
+    EXPECT_LT(share(), 0.02);  // the path
+    Key(XK_l);
+    EXPECT_TRUE(FindControl("tools"));
 }
 
 // Two parts of a scan lie a kilometre apart. What is shown whole is the one with the camera.

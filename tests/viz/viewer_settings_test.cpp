@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "viz/viewer_controls.h"
+#include "viz/viewer_state.h"
 
 namespace tessera {
 namespace {
@@ -136,6 +137,23 @@ TEST_F(ViewerDetectors, ADetectorIsChosenFromTheListOrByItsPath) {
     Click("detector.use");
     EXPECT_EQ(LastSettings()->detector, "q.cfg");  // q, in a text, is no key of the window
     EXPECT_TRUE(Commands().empty());
+    const int choices = LastSettings()->detector_choice;
+    Click("detector.choose");
+    Click("detector.use");  // the same once more: it may have failed
+    EXPECT_EQ(LastSettings()->detector, "q.cfg");
+    EXPECT_EQ(LastSettings()->detector_choice, choices + 1);
+}
+
+TEST(ViewerDetectorName, IsThatOfTheOneInUse) {
+    ViewerLink link;
+    ViewerOptions options;
+    options.detector = "a.onnx";
+    ViewerState state(&link, options);
+    state.UseDetector("b.onnx");
+    EXPECT_EQ(state.detector(), "a.onnx");  // b is not open yet, or was refused
+    link.detectors.Push("b.onnx");
+    EXPECT_TRUE(state.system.Take(link, 0));
+    EXPECT_EQ(state.detector(), "b.onnx");
 }
 
 }  // namespace
