@@ -103,7 +103,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     if (keyframe && stored.ok()) {
         if (config_.overlaps) graph_.overlaps().Find(keyframes, last.id, true);
         if (seeking_) news = SeekLoop(last, prepared, view.motion);
-        if (seeking_ && news.empty()) news = SeekDrift(last);
+        if (seeking_ && news.empty()) news = SeekDrift();
         if (seeking_ && news.empty()) news = SeekOtherParts(last, prepared);
         places_.Add(last);
     }

@@ -121,7 +121,7 @@ class LoopCloser {
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                          const FrameMotion& motion);
     std::string CloseLoop(const Keyframe& old, const Keyframe& fresh, const FieldVerdict& verdict);
-    std::string SeekDrift(const Keyframe& fresh);
+    std::string SeekDrift();
     std::string SeekOtherParts(const Keyframe& fresh, const PreparedFrame& prepared);
     // The map in use is about to be replaced, or just was: it may hold places twice.
     bool outdated() const { return corrector_.busy() || swapped_; }

@@ -23,8 +23,8 @@ void Append(std::optional<LoopCloser::Correction> next,
 std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
     if (!seeking_) return std::nullopt;
     graph_.ClearMoved();
-    // Surfaces closer than that are one surface to tracking; what is left waits for the end.
-    if (!corrector_.Begin(settings_.map.truncation_m)) return std::nullopt;
+    // What is left waits for the end.
+    if (!corrector_.Begin(corrector_.OneSurface_m())) return std::nullopt;
     return StepCorrection(frames);
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/se3.h"
 #include "optimize/loop_closer.h"
+#include "optimize/shown_drift.h"
 
 namespace tessera {
 namespace {
@@ -42,30 +43,14 @@ std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh,
 }
 
 // Corrects the path if direct alignment shows that tracking is off.
-std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
+std::string LoopCloser::SeekDrift() {
     const Keyframes& keyframes = graph_.keyframes();
     const std::optional<double> factor = AlignedFactor(keyframes);
     if (!factor) return {};
-    // Two alignments with older keyframes must say so: one may be wrong, and neighbours in time
-    // show no drift.
-    constexpr int kRecent = 3, kWitnesses = 2;
     // The map would not show less.
     const double least_m = settings_.map.voxel_size_m;
-    int witnesses = 0;
-    const Keyframe* old = nullptr;
-    Drift drift;
-    for (int id = fresh.id; id > std::max(0, fresh.id - kRecent); --id)
-        for (const Overlap& overlap : keyframes[id].overlaps) {
-            if (!IsOlder(overlap, id) || !Contradicts(overlap, *factor)) continue;
-            const Drift implied = DriftOf(keyframes[overlap.with], keyframes[id],
-                                          overlap.T_with_this_aligned, config_.max_drift);
-            if (!implied.conceivable || implied.off_m < least_m) continue;
-            ++witnesses;
-            if (implied.off_m <= drift.off_m) continue;
-            old = &keyframes[overlap.with];
-            drift = implied;
-        }
-    if (old == nullptr || witnesses < kWitnesses) return {};
+    const ShownDrift shown = FindShownDrift(keyframes, *factor, least_m, config_.max_drift);
+    if (!shown.worth_a_solution) return {};
     const bool first = !graph_.corrected();
     if (first) {
         const std::vector<Eigen::Isometry3d> before = graph_.Poses();
@@ -78,7 +63,7 @@ std::string LoopCloser::SeekDrift(const Keyframe& fresh) {
         graph_.CountLoop();
     }
     if (Status solved = graph_.OptimiseAgain(); !solved.ok()) return solved.message();
-    return first ? ClosedText(*old, drift) : std::string();
+    return first ? ClosedText(*shown.old, shown.drift) : std::string();
 }
 
 // Looks for a keyframe among those of other parts.

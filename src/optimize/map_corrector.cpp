@@ -9,22 +9,24 @@ namespace tessera {
 
 bool MapCorrector::WantsMap() const {
     return !made_ && !broken_ && graph_.corrected() && !make_pager_ && !labels_ &&
-           graph_.Displacement_m() >= settings_.map.truncation_m;
+           graph_.Displacement_m() >= OneSurface_m();
+}
+
+double MapCorrector::OneSurface_m() const {
+    return settings_.map.band().At(static_cast<float>(ScanGraph::kReach_m));
 }
 
 // An object that was seen at two places has two instances, which become one only by voting again.
 // Unlike fusion, moving does not look at the free memory.
 bool MapCorrector::MayMove(const BlockMap& in_use) const {
     if (make_pager_ || !MemoryHasRoomFor(in_use.bytes())) return false;
-    return !labels_ ||
-           (in_use.has_labels() && graph_.Displacement_m() < settings_.map.truncation_m);
+    return !labels_ || (in_use.has_labels() && graph_.Displacement_m() < OneSurface_m());
 }
 
 void MapCorrector::Move(std::unique_ptr<BlockMap> copy) {
     if (made_) return;
     if (copy && !MayMove(*copy)) copy.reset();
-    if (Begin(settings_.map.truncation_m, copy.get(), MapWarp::Doubtful::kMoved))
-        made_->Keep(std::move(copy));
+    if (Begin(OneSurface_m(), copy.get(), MapWarp::Doubtful::kMoved)) made_->Keep(std::move(copy));
 }
 
 bool MapCorrector::Begin(double tolerance_m, const BlockMap* in_use, MapWarp::Doubtful doubtful) {

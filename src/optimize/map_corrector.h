@@ -44,6 +44,8 @@ class MapCorrector {
     bool moves_copy() const { return made_ && made_->has_copy(); }
     // True if a map is due and the one in use can be moved while it goes on being used.
     bool WantsMap() const;
+    // Surfaces closer than that are one surface to tracking.
+    double OneSurface_m() const;
     // False if labels move far, with a pager, or if there is too little memory for two more maps.
     bool MayMove(const BlockMap& in_use) const;
     // Moves a copy of the map in use. Blocks about which keyframes disagree are moved as well as

@@ -82,7 +82,6 @@ void ScanGraph::SetMapPoses(const std::vector<Eigen::Isometry3d>& T_map_keyframe
 }
 
 double ScanGraph::Displacement_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const {
-    constexpr double kReach_m = 2.0;
     double farthest = 0;
     for (int i = 0; i < keyframes_.size(); ++i) {
         const Eigen::Isometry3d &map = T_map_keyframe[static_cast<std::size_t>(i)],

@@ -67,8 +67,9 @@ class ScanGraph {
     std::vector<Eigen::Isometry3d> MapPoses() const;
     void SetPoses(const std::vector<Eigen::Isometry3d>& T_world_keyframe);
     void SetMapPoses(const std::vector<Eigen::Isometry3d>& T_map_keyframe);
-    // Largest displacement of any point within 2 m of a keyframe, between a map made with these
-    // keyframe poses and the graph.
+    static constexpr double kReach_m = 2.0;
+    // Largest displacement of any point within kReach_m of a keyframe, between a map made with
+    // these keyframe poses and the graph.
     double Displacement_m(const std::vector<Eigen::Isometry3d>& T_map_keyframe) const;
     // Of the map in use.
     double Displacement_m() const { return Displacement_m(MapPoses()); }

@@ -44,8 +44,11 @@ bool TrackJudge::Fits(std::int64_t points, const PoseSums& sums, TrackResult& re
 }
 
 void TrackJudge::Judge(const TrackInput& input, TrackResult& result) const {
+    // Small voxels make a motion no less known than it is: a pose known to within this is tracked.
+    constexpr double kKnown_m = 0.005;
     result.degenerate =
-        result.uncertainty_m > config_.degenerate_voxels * input.map.config().voxel_size_m;
+        result.uncertainty_m >
+        std::max(kKnown_m, config_.degenerate_voxels * input.map.config().voxel_size_m);
     const Eigen::Isometry3d& T_world_expected = input.T_world_camera_starts.front();
     result.innovation_m = InnovationOf(T_world_expected, result.T_world_camera);
     result.innovation_rad = RotationAngle(T_world_expected, result.T_world_camera);
@@ -93,7 +96,7 @@ void TrackJudge::SetStatus(const TrackInput& input, TrackResult& result) const {
 void TrackJudge::Config::Describe(ConfigParameters& p) {
     p.Add("degenerate_voxels", degenerate_voxels, {0.0, 100.0}, "voxels",
           "a frame is degenerate if the standard deviation of some motion, at the scene's depth, "
-          "is larger than this");
+          "is larger than this and larger than 5 mm");
     p.Add("expected_within_m", expected_within_m, {0.0, 1.0}, "m",
           "standard deviation of the pose that prealignment and motion model predict; motions that "
           "the frame constrains less well follow the prediction; 0 disables this");

@@ -52,11 +52,12 @@ TEST(Cover, IsThePointsInsideOrNearEitherWayRound) {
                 EXPECT_GE(weights.minCoeff(), 0);
                 const Eigen::Vector2f there =
                     weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
-                if (margin < 0.01f)
+                if (margin < 0.01f) {
                     EXPECT_LT(
                         (there - Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)))
                             .norm(),
                         0.01f);
+                }
             });
             EXPECT_EQ(covered, Slowly(corners, margin)) << i << " " << margin;
         }

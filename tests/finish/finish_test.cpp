@@ -86,7 +86,9 @@ TEST(Finish, AWallIsCleanedThinnedAndPainted) {
     EXPECT_GT(report.views, 2);
     EXPECT_LE(report.views, 8);
     EXPECT_GT(report.model().seen_share, 0.95);
-    if (DecimationAvailable()) EXPECT_LE(model.mesh.triangles.size(), 190u);
+    if (DecimationAvailable()) {
+        EXPECT_LE(model.mesh.triangles.size(), 190u);
+    }
     ASSERT_EQ(model.uv.size(), model.mesh.vertices.size());
     for (std::size_t i = 0; i < model.uv.size(); ++i) {
         const Eigen::Vector3f& p = model.mesh.vertices[i];

@@ -69,7 +69,9 @@ TEST(Smooth, EachVertexHasItsOwnRounds) {
     Smooth(mesh, rounds);
     double left = 0, right = 0;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        if (rounds[v] == 0) EXPECT_EQ(mesh.vertices[v], rough.vertices[v]);
+        if (rounds[v] == 0) {
+            EXPECT_EQ(mesh.vertices[v], rough.vertices[v]);
+        }
         (rounds[v] == 0 ? left : right) += std::pow(static_cast<double>(mesh.vertices[v].z()), 2);
     }
     EXPECT_LT(right, left / 3);

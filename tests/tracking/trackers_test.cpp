@@ -202,6 +202,24 @@ TEST(TrackJudge, AllowsAJumpForEachFrameSinceTheLastPose) {
     EXPECT_EQ(status_after(0.61, 2), TrackStatus::kLost);
 }
 
+// Half a voxel, but never less than 5 mm.
+TEST(TrackJudge, SmallVoxelsLeaveNoMotionOpen) {
+    const PreparedFrame frame;
+    for (const auto& [voxel_m, limit_m] :
+         {std::pair{0.002, 0.005}, {0.004, 0.005}, {0.01, 0.005}, {0.02, 0.01}}) {
+        const BlockMap map({.voxel_size_m = voxel_m, .truncation_m = 4 * voxel_m});
+        for (const double share : {0.99, 1.01}) {
+            TrackResult result{.inlier_fraction = 1, .uncertainty_m = share * limit_m};
+            TrackJudge({}).Judge({.frame = frame,
+                                  .map = map,
+                                  .T_world_camera_starts = {Eigen::Isometry3d::Identity()},
+                                  .T_world_camera_last = Eigen::Isometry3d::Identity()},
+                                 result);
+            EXPECT_EQ(result.degenerate, share > 1) << voxel_m << " m";
+        }
+    }
+}
+
 // Far from the prediction, a pose is poor. A frame that knows all motions well can prove it right.
 TEST(TrackJudge, SaysWhatIsUnexpected) {
     const BlockMap map({.voxel_size_m = 0.02, .truncation_m = 0.08});
