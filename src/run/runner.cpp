@@ -165,6 +165,17 @@ Status Runner::Begin() {
     return Status::Ok();
 }
 
+// A scan that was killed after its last frame has no results yet.
+Status Runner::BeginWithoutFrames() {
+    if (frames_before_ == 0 || engine_->stopped()) {
+        TellOpened();
+        return Status::Ok();
+    }
+    notes_.push_back(request_.scan_file +
+                     ": has all of these frames already; its results are written");
+    return Begin();
+}
+
 void Runner::TellOpened() {
     opened_ = true;
     if (observer_.on_open) observer_.on_open(summary_.source);

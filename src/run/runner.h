@@ -37,6 +37,7 @@ class Runner {
     // Called at the first outcome, not before: a run that is refused, or that is stopped before its
     // first frame, leaves the results of an earlier run.
     Status Begin();
+    Status BeginWithoutFrames();
     void TellOpened();
 
     Status TakeOutcomes();

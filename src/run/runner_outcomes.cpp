@@ -18,7 +18,7 @@ Status Runner::TakeOutcomes() {
         if (observer_.on_frame) observer_.on_frame(summary_.counts, Total());
     }
     if (status.ok()) status = engine_->status();
-    if (status.ok() && !begun_) TellOpened();
+    if (status.ok() && !begun_) status = BeginWithoutFrames();
     summary_.stopped = engine_->stopped();
     summary_.wall_s = whole.LapMs() / 1000;
     summary_.cpu_s = MeasureProcess().cpu_s - cpu_before_s;

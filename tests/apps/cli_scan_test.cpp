@@ -34,6 +34,13 @@ TEST_F(Cli, AScanIsSavedLookedAtGoneOnWithHandedOutAndRepaired) {
               0);
     EXPECT_EQ(ReadAll(folder / "m.ply"), ReadAll(folder / "second/mesh.ply"));
     EXPECT_EQ(ReadTrajectory(folder / "t.txt").value().poses.size(), 20u);
+    // A run that was killed after its last frame: no frame is left, but the results are missing.
+    const Outcome complete =
+        Call(SmallRun() + "--frames 20 --out " + (folder / "third") + " --resume " + scan);
+    EXPECT_EQ(complete.exit_code, 0) << complete.err;
+    EXPECT_NE(complete.err.find("has all of these frames"), std::string::npos) << complete.err;
+    EXPECT_EQ(ReadAll(folder / "third/trajectory.txt"), ReadAll(folder / "second/trajectory.txt"));
+    EXPECT_EQ(ReadAll(folder / "third/mesh.ply"), ReadAll(folder / "second/mesh.ply"));
     ExpectRefused("export " + scan + " --frames " + (folder / "raw"), "scan.frames=all");
     ExpectRefused("run " + scan, "scan.frames=all");
     ExpectRefused("info " + (folder / "m.ply") + ".scan", "no such file");

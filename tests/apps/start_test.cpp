@@ -169,6 +169,7 @@ TEST_F(StartProgram, ARecordingIsScannedToItsEnd) {
 TEST_F(StartProgram, AFinishedScanIsShown) { ShowAndCloseTheFinishedScan(); }
 
 TEST_F(StartProgram, AFinishedScanIsMeasuredAndMadeAModel) {
+    fs::remove("done/mesh.ply");  // not of a run, so it would not be replaced
     const std::string run = std::string(TESSERA_PROGRAM) + " run rec --out done >/dev/null 2>&1";
     ASSERT_EQ(std::system(run.c_str()), 0);
     Click("entry.done");
@@ -194,6 +195,7 @@ TEST_F(StartProgram, AFinishedScanIsMeasuredAndMadeAModel) {
 
 // Finishing again, and pictures, replace nothing and are in the folder of the run.
 TEST_F(StartProgram, AModelThatIsThereIsKept) {
+    fs::remove("done/mesh.ply");  // not of a run, so it would not be replaced
     const std::string run = std::string(TESSERA_PROGRAM) + " run rec --out done >/dev/null 2>&1";
     ASSERT_EQ(std::system(run.c_str()), 0);
     fs::create_directories("done/model");

@@ -184,12 +184,12 @@ class Sender(unittest.TestCase):
             with open(program, "w", encoding="ascii") as script:
                 script.write(f"#!/bin/sh\ncat > /dev/null\n: > {ended}\ncat {may_end}\necho done\n")
             os.chmod(program, 0o700)
-            live = tessera.live.Live(tessera.Camera(6, 4, 5, 5, 2.5, 1.5), folder + "/o", program=program)
+            live = tessera.live.Live(tessera.Camera(64, 48, 50, 50, 31.5, 23.5), folder + "/o", program=program)
             summaries, refused = [], threading.Event()
 
             def push():
                 try:
-                    live.push(np.zeros((4, 6), np.uint16), None, 1.0)
+                    live.push(np.zeros((48, 64), np.uint16), None, 1.0)
                 except BrokenPipeError:
                     refused.set()
 
