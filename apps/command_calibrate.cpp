@@ -1,4 +1,6 @@
 // tessera calibrate: a camera file from frames that show a printed board.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -74,12 +76,16 @@ int Calibrate(CalibrateArguments& a) {
     if (Status status = a.config.Apply(parameters); !status.ok()) return Fail(status);
     if (Status status = config.Validate(); !status.ok()) return Fail(status);
     a.request.stop = &StopOnSignal();
-    a.request.on_view = [](const CameraCalibrator& c) {
-        fmt::print(stderr, "\rviews {}, corners in {:.0f} % of the image ", c.views(),
-                   100 * c.coverage());
-    };
+    bool line_begun = false;
+    if (isatty(STDERR_FILENO) == 1)
+        a.request.on_view = [&](const CameraCalibrator& c) {
+            fmt::print(stderr, "\rviews {}, corners in {:.0f} % of the image ", c.views(),
+                       100 * c.coverage());
+            line_begun = true;
+        };
     const Result<Calibrated> calibrated = CalibrateCamera(a.request, config);
-    fmt::print(stderr, "\n");
+    a.request.on_view = {};
+    if (line_begun) fmt::print(stderr, "\n");
     if (!calibrated.ok()) return Fail(calibrated.status());
     PrintResult(calibrated.value().result);
     return ExitCode(Write(a, calibrated.value()));

@@ -116,6 +116,8 @@ Status EvalMesh(const EvalArguments& a) {
     if (!reference.ok()) return reference.status();
     const Result<TriangleMesh> mesh = ReadPly(a.estimate);
     if (!mesh.ok()) return mesh.status();
+    if (!a.picture.empty() && mesh.value().triangles.empty())
+        return Status::Error(a.estimate + ": has no triangles to draw; leave --picture out");
     MeshErrorOptions options;
     if (!a.align.empty()) {
         const auto both = ReadBoth(a.align[0], a.align[1]);
@@ -123,6 +125,8 @@ Status EvalMesh(const EvalArguments& a) {
         const auto alignment =
             AlignTrajectories(both.value().first.poses, both.value().second.poses);
         if (!alignment.ok()) return Status::Error(a.align[1] + ": " + alignment.message());
+        if (!alignment.value().warning.empty())
+            fmt::print(stderr, "tessera: note: {}\n", alignment.value().warning);
         options.T_reference_mesh = alignment.value().T_reference_estimate;
     }
     const Result<MeshErrorResult> result =

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "box_option.h"
 #include "command.h"
@@ -38,6 +39,8 @@ struct ExportArguments {
     // Whether an output needs data that only a scan file has.
     bool NeedsScan() const { return !grid.empty() || NeedsFrames(); }
     bool NeedsFrames() const { return !frames.empty() || !colmap.empty(); }
+    // Whether an output takes its first points from the mesh, of which --box leaves nothing out.
+    bool NeedsWholeMesh() const { return !colmap.empty() || WantsTransforms(); }
 };
 
 // The requested data, from either kind of input.
@@ -118,15 +121,16 @@ Status Tell(const Result<std::vector<std::string>>& notes) {
     return Status::Ok();
 }
 
-Status Write(const ExportArguments& a, const Content& content) {
+// `shown` is the mesh in the box.
+Status Write(const ExportArguments& a, const Content& content, const TriangleMesh& shown) {
     if (!a.mesh.empty())
         if (Status status = MeshFormatOf(a.mesh).value().write(
-                a.mesh, a.level && fs::path(a.mesh).extension() == ".glb" ? WithYDown(content.mesh)
-                                                                          : content.mesh);
+                a.mesh,
+                a.level && fs::path(a.mesh).extension() == ".glb" ? WithYDown(shown) : shown);
             !status.ok())
             return status;
     if (!a.cloud.empty())
-        if (Status status = WritePlyCloud(a.cloud, content.mesh); !status.ok()) return status;
+        if (Status status = WritePlyCloud(a.cloud, shown); !status.ok()) return status;
     if (!a.trajectory.empty())
         if (Status status = WriteTrajectory(a.trajectory, content.path); !status.ok())
             return status;
@@ -163,10 +167,12 @@ Status Export(const ExportArguments& a) {
     if (!content.ok()) return content.status();
     if (a.level)
         if (Status status = Turn(a.input, content.value()); !status.ok()) return status;
-    if (box.value())
-        if (Status status = CropMesh(*box.value(), content.value().mesh); !status.ok())
-            return Status::Error("--box: " + a.input + ": " + status.message());
-    return Write(a, content.value());
+    if (!box.value()) return Write(a, content.value(), content.value().mesh);
+    TriangleMesh shown =
+        a.NeedsWholeMesh() ? content.value().mesh : std::move(content.value().mesh);
+    if (Status status = CropMesh(*box.value(), shown); !status.ok())
+        return Status::Error("--box: " + a.input + ": " + status.message());
+    return Write(a, content.value(), shown);
 }
 
 }  // namespace

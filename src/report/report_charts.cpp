@@ -25,11 +25,12 @@ std::vector<StripPiece> StatePieces(const std::vector<FrameRow>& rows, const Tim
     constexpr int kColumns = 490;
     const double width_s = std::max(1e-3, range.end_s - range.begin_s) / kColumns;
     std::vector<StripPiece> pieces;
-    double last_column = -1;
+    double last_column = -1, column_begin_s = 0;
     FrameState shown = FrameState::kFused;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double begin_s = rows[i].stamp_s - range.begin_s;
         const double column = std::floor(begin_s / width_s);
+        if (column != last_column) column_begin_s = begin_s;
         const double end_s =
             i + 1 < rows.size() ? rows[i + 1].stamp_s - range.begin_s : range.end_s - range.begin_s;
         const FrameState worst =
@@ -37,7 +38,12 @@ std::vector<StripPiece> StatePieces(const std::vector<FrameRow>& rows, const Tim
         if (!pieces.empty() && worst == shown) {
             pieces.back().end = std::max(pieces.back().end, end_s);
         } else if (!pieces.empty() && column == last_column) {
-            pieces.back() = {pieces.back().begin, end_s, StyleOf(worst)};
+            // The piece may have begun columns before: that part of it keeps its state.
+            if (pieces.back().begin < column_begin_s) {
+                pieces.back().end = column_begin_s;
+                pieces.emplace_back();
+            }
+            pieces.back() = {column_begin_s, end_s, StyleOf(worst)};
         } else {
             pieces.push_back({begin_s, end_s, StyleOf(worst)});
         }

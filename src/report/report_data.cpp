@@ -112,6 +112,7 @@ class Reader {
         if (!given.empty() || Exists(data_.truth)) {
             Result<Trajectory> truth = ReadTrajectory(data_.truth);
             if (!truth.ok()) return truth.status();
+            for (const std::string& note : truth.value().notes) data_.damaged.push_back(note);
             return std::move(truth.value().poses);
         }
         std::vector<StampedPose> poses;
@@ -151,6 +152,10 @@ Result<ReportData> ReadReportData(const std::string& folder, const ReportOptions
     reader.ReadTables();
     if (!data.path.empty())
         if (Status status = reader.ReadTruth(options.truth); !status.ok()) return status;
+    if (data.path.empty() && !options.truth.empty())
+        return Status::Error(
+            fmt::format("{}: has no readable trajectory.txt to compare with {}; leave --truth out",
+                        folder, options.truth));
     return reader.Take();
 }
 

@@ -33,7 +33,8 @@ std::string Script() {
 }  // namespace
 
 std::string ReportHtml(ReportData data, const ReportOptions& options) {
-    const std::size_t triangles = data.mesh ? data.mesh->triangles.size() : 0;
+    const std::size_t points = data.mesh ? data.mesh->vertices.size() : 0,
+                      triangles = data.mesh ? data.mesh->triangles.size() : 0;
     ReducedMesh model;
     if (data.mesh) model = ReduceMesh(std::move(*data.mesh), options.most_triangles);
     data.mesh.reset();
@@ -43,18 +44,24 @@ std::string ReportHtml(ReportData data, const ReportOptions& options) {
                         CountText(static_cast<std::int64_t>(triangles)),
                         CountText(static_cast<std::int64_t>(model.mesh.triangles.size())),
                         LengthText(model.cell_m)));
+    if (triangles == 0 && model.mesh.vertices.size() < points)
+        data.left_out.push_back(
+            fmt::format("The model has {} points; this page shows {}, evenly chosen.",
+                        CountText(static_cast<std::int64_t>(points)),
+                        CountText(static_cast<std::int64_t>(model.mesh.vertices.size()))));
     const std::string sections =
         DamageSection(data) + std::string(PageAsset("viewer.html")) + TrackingSection(data) +
         ErrorSection(data) + TimesSection(data) + CorrectionSection(data) + ObjectsSection(data) +
         SettingsSection(data, options) + AgainSection(data, options) + LeftOutSection(data);
-    return FillTemplate(PageAsset("page.html"), {{"title", EscapeHtml(Title(data))},
-                                                 {"subtitle", SubtitleHtml(data)},
-                                                 {"tiles", TilesHtml(data, model.mesh, triangles)},
-                                                 {"css", std::string(PageAsset("page.css"))},
-                                                 {"sections", sections},
-                                                 {"version", EscapeHtml(options.version)},
-                                                 {"data", ViewerData(data, model.mesh)},
-                                                 {"script", Script()}});
+    return FillTemplate(PageAsset("page.html"),
+                        {{"title", EscapeHtml(Title(data))},
+                         {"subtitle", SubtitleHtml(data)},
+                         {"tiles", TilesHtml(data, model.mesh, points, triangles)},
+                         {"css", std::string(PageAsset("page.css"))},
+                         {"sections", sections},
+                         {"version", EscapeHtml(options.version)},
+                         {"data", ViewerData(data, model.mesh)},
+                         {"script", Script()}});
 }
 
 Result<WrittenReport> WriteReport(const std::string& folder, const std::string& path,

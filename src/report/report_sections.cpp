@@ -36,7 +36,7 @@ std::string ErrorTile(const ReportData& data) {
     return {};
 }
 
-std::string ModelTile(const TriangleMesh& shown, std::size_t triangles) {
+std::string ModelTile(const TriangleMesh& shown, std::size_t points, std::size_t triangles) {
     if (shown.vertices.empty()) return {};
     Eigen::AlignedBox3f box;
     for (const Eigen::Vector3f& p : shown.vertices)
@@ -46,8 +46,7 @@ std::string ModelTile(const TriangleMesh& shown, std::size_t triangles) {
     const std::string box_text =
         fmt::format("{:.1f} x {:.1f} x {:.1f} m", size.x(), size.y(), size.z());
     if (triangles == 0)
-        return Tile(CountText(static_cast<std::int64_t>(shown.vertices.size())), "points",
-                    box_text);
+        return Tile(CountText(static_cast<std::int64_t>(points)), "points", box_text);
     return Tile(CountText(static_cast<std::int64_t>(triangles)), "triangles", box_text);
 }
 
@@ -80,7 +79,8 @@ std::string SubtitleHtml(const ReportData& data) {
     return html;
 }
 
-std::string TilesHtml(const ReportData& data, const TriangleMesh& shown, std::size_t triangles) {
+std::string TilesHtml(const ReportData& data, const TriangleMesh& shown, std::size_t points,
+                      std::size_t triangles) {
     std::string tiles;
     if (data.record) tiles += FrameTiles(*data.record);
     if (data.path.size() > 1) {
@@ -89,7 +89,7 @@ std::string TilesHtml(const ReportData& data, const TriangleMesh& shown, std::si
                       "in " + DurationText(range.end_s - range.begin_s));
     }
     tiles += ErrorTile(data);
-    tiles += ModelTile(shown, triangles);
+    tiles += ModelTile(shown, points, triangles);
     if (!data.objects.empty())
         tiles +=
             Tile(CountText(static_cast<std::int64_t>(data.objects.size())), "objects", "labelled");

@@ -10,8 +10,10 @@
 namespace tessera {
 
 std::string SubtitleHtml(const ReportData& data);
-// `shown` is the model on the page, which may have fewer than `triangles`.
-std::string TilesHtml(const ReportData& data, const TriangleMesh& shown, std::size_t triangles);
+// `shown` is the model on the page, which may have fewer than `triangles`, or than `points` if the
+// model has no triangles.
+std::string TilesHtml(const ReportData& data, const TriangleMesh& shown, std::size_t points,
+                      std::size_t triangles);
 std::string ObjectsSection(const ReportData& data);
 std::string SettingsSection(const ReportData& data, const ReportOptions& options);
 std::string AgainSection(const ReportData& data, const ReportOptions& options);

@@ -104,6 +104,7 @@ void FrameFaults::Apply(Frame& frame) {
         last_colour_ = frame.colour;
         last_depth_m_ = frame.depth_m;
     } else if (*fault == FrameFault::kRepeated) {
+        if (last_depth_m_.empty()) return;  // the first that was read: nothing to repeat
         frame.colour = last_colour_;
         frame.depth_m = last_depth_m_;
     } else {

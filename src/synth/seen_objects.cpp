@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,8 +12,11 @@
 namespace tessera {
 namespace {
 
-std::string WithoutBlanks(std::string name) {
-    std::replace(name.begin(), name.end(), ' ', '_');
+// One word for the lists, in which blanks end a word and # begins a comment.
+std::string AsWord(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(),
+        [](char c) { return c == '#' || std::isspace(static_cast<unsigned char>(c)) != 0; }, '_');
     return name;
 }
 
@@ -55,14 +59,14 @@ void SeenObjects::Add(const RenderedView& view, std::int64_t frame, double stamp
     for (const SimulatedDetection& d :
          SimulateDetections(scene_, boxes, view.instance.size(), seed_, frame))
         detections_ += fmt::format("{:.6f} {} {:.3f} {} {} {} {}\n", stamp_s,
-                                   WithoutBlanks(scene_.class_names()[d.class_id]), d.probability,
+                                   AsWord(scene_.class_names()[d.class_id]), d.probability,
                                    d.box.x_min, d.box.y_min, d.box.x_max, d.box.y_max);
 }
 
 std::string SeenObjects::ClassesText() const {
     std::string text = "# id name (id as in labels/*.png; 0 = unlabelled: the surroundings)\n";
     for (std::size_t i = 1; i < scene_.class_names().size(); ++i)
-        text += fmt::format("{} {}\n", i, WithoutBlanks(scene_.class_names()[i]));
+        text += fmt::format("{} {}\n", i, AsWord(scene_.class_names()[i]));
     return text;
 }
 
@@ -89,7 +93,7 @@ std::string SeenObjects::ObjectsJson() const {
 
 std::string SeenObjects::DetectionsText() const {
     return "# timestamp class probability xmin ymin xmax ymax (inclusive pixels; class names with "
-           "_ for blanks, see "
+           "_ for blanks and #, see "
            "classes.txt)\n" +
            detections_;
 }

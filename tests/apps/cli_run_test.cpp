@@ -117,6 +117,30 @@ TEST_F(Cli, RunsAndEvaluates) {
     EXPECT_EQ(Call("eval rpe " + trajectory + " " + trajectory + " --delta 0.1").exit_code, 0);
 }
 
+TEST_F(Cli, EvalMeshSaysWhatItsFiguresCannotMean) {
+    const std::string
+        vertices =
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\n",
+        places = "0 0 0\n1 0 0\n0 1 0\n", line = folder / "line.txt";
+    std::ofstream(folder / "cloud.ply") << vertices << "end_header\n" << places;
+    std::ofstream(folder / "mesh.ply")
+        << vertices << "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        << places << "3 0 1 2\n";
+    std::ofstream path(line);
+    for (int i = 0; i < 5; ++i) path << i << ' ' << i << " 0 0 0 0 0 1\n";
+    path.close();
+    const std::string mesh = "eval mesh " + (folder / "mesh.ply") + " ";
+    const Outcome aligned = Call(mesh + (folder / "mesh.ply") + " --align " + line + " " + line);
+    EXPECT_EQ(aligned.exit_code, 0);
+    EXPECT_NE(aligned.err.find("note: the camera moved along a line"), std::string::npos)
+        << aligned.err;
+    EXPECT_NE(Succeeds(mesh + (folder / "cloud.ply")).find("3 vertices"), std::string::npos);
+    ExpectRefused(mesh + (folder / "cloud.ply") + " --picture " + (folder / "e.png"),
+                  "has no triangles to draw");
+    EXPECT_FALSE(std::filesystem::exists(folder / "e.png"));
+}
+
 TEST_F(Cli, TheSummarySaysThatTheSceneLeftAMotionOpen) {
     const std::string note = "frames are degenerate: the scene leaves a motion open";
     EXPECT_EQ(Succeeds(SmallRun() + "--frames 5 --out " + (folder / "desk")).find(note),

@@ -52,6 +52,7 @@ TEST_F(Cli, BadArgumentsAreOneLineAndExitCode2) {
     EXPECT_EQ(alone.exit_code, 2);
     EXPECT_EQ(alone.err, Call("help").out);
     ExpectRefused("eval", "subcommand");
+    ExpectRefused("calibrate /no/such/folder", "/no/such/folder");
     ExpectRefused("rnu synthetic:desk", "did you mean run?");
     ExpectRefused("xxxxxx", "unknown command or option 'xxxxxx' (tessera -h lists them)");
     ExpectRefused("run realsense:", "realsense: is not a kind of source; cameras without OpenNI2");

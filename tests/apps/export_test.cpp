@@ -72,6 +72,23 @@ TEST_F(Export, CropsToABox) {
         "nothing of the mesh is in the box");
 }
 
+TEST_F(Export, ABoxLeavesThePointsForOtherProgramsWhole) {
+    ASSERT_NO_FATAL_FAILURE(Scan("--set scan.frames=all"));
+    const std::string from = "export " + (folder / "a.scan");
+    const auto whole = ReadPly(folder / "run/mesh.ply");
+    ASSERT_TRUE(whole.ok());
+    Eigen::AlignedBox3f all;
+    for (const Eigen::Vector3f& v : whole.value().vertices) all.extend(v);
+    Succeeds(from + " --colmap " + (folder / "all"));
+    Succeeds(from + " --colmap " + (folder / "cm") + " --frames " + (folder / "ns/t.json") +
+             " --mesh " + (folder / "m.ply") +
+             fmt::format(" --box {} -9 -9 9 9 9", all.center().x()));
+    EXPECT_LT(ReadPly(folder / "m.ply").value().triangles.size(), whole.value().triangles.size());
+    EXPECT_EQ(ReadAll(folder / "cm/points3D.txt"), ReadAll(folder / "all/points3D.txt"));
+    EXPECT_EQ(ReadPly(folder / "ns/points.ply").value().vertices.size(),
+              whole.value().vertices.size());
+}
+
 TEST_F(Export, AFinishedModelLeavesNoFilesOfAnother) {
     ASSERT_NO_FATAL_FAILURE(Scan(""));
     const std::string finish = "finish " + (folder / "run") + " --out " + (folder / "f");

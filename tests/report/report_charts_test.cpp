@@ -41,6 +41,21 @@ TEST(TrackingSection, ASingleLostFrameOfAnHourIsSeen) {
     EXPECT_EQ(Occurrences(TrackingSection(data), "<rect class=\"lost\""), 1u);
 }
 
+// It is not the first of its 490th part of the time.
+TEST(TrackingSection, ALostFrameColoursOnlyItsPlace) {
+    ReportData data;
+    data.frames.emplace();
+    for (int i = 0; i < 100000; ++i)
+        data.frames->rows.push_back(
+            Frame(i / 30.0, i == 70001 ? FrameState::kLost : FrameState::kFused));
+    const std::string html = TrackingSection(data);
+    for (const char* piece : {"<rect class=\"fused\" x=\"56.00\" y=\"26\" width=\"343.00\"",
+                              "<rect class=\"lost\" x=\"399.00\" y=\"26\" width=\"1.00\"",
+                              "<rect class=\"fused\" x=\"400.00\" y=\"26\" width=\"146.00\""})
+        EXPECT_EQ(Occurrences(html, piece), 1u) << piece;
+    EXPECT_EQ(Occurrences(html, "<rect class="), 3u);
+}
+
 TEST(TimesSection, SingleSlowFramesDoNotFlattenTheRest) {
     ReportData data;
     data.frames.emplace();

@@ -148,6 +148,21 @@ TEST_F(Report, AGivenTruthMustBeReadable) {
     EXPECT_NE(written.message().find("nowhere.txt"), std::string::npos);
 }
 
+TEST_F(Report, AGivenTruthNeedsAPath) {
+    Remove("trajectory.txt");
+    options.truth = folder / "groundtruth.txt";
+    const auto written = WriteReport(folder.path(), folder / "page.html", options);
+    ASSERT_FALSE(written.ok());
+    EXPECT_NE(written.message().find("no readable trajectory.txt"), std::string::npos);
+}
+
+TEST_F(Report, LinesOfTheTruthThatAreLeftOutAreSaid) {
+    std::ofstream(folder / "groundtruth.txt", std::ios::app) << "1 2 3\n";
+    EXPECT_TRUE(Has(Page(), "error"));
+    ASSERT_EQ(report.damaged.size(), 1u);
+    EXPECT_NE(report.damaged[0].find("3 numbers, not 8; skipped"), std::string::npos);
+}
+
 TEST_F(Report, ErrorsAreThoseOfEval) {
     const std::string page = Page();
     const AteResult ate = EvaluateAte(MadeUpPath(0.11), MadeUpPath(0.1)).value();
@@ -160,6 +175,18 @@ TEST_F(Report, ALargeModelIsMadeCoarserAndSaysSo) {
     const std::string page = Page();
     EXPECT_NE(page.find("The model has 800 triangles; this page shows 1"), std::string::npos);
     EXPECT_EQ(page.find("\"triangles\":800"), std::string::npos);
+}
+
+TEST(ReportHtml, ALargeCloudOfPointsIsThinnedAndSaysSo) {
+    ReportData data;
+    data.mesh = BumpySheet(20);  // 21 x 21 vertices
+    data.mesh->triangles.clear();
+    ReportOptions options;
+    options.most_triangles = 200;
+    const std::string page = ReportHtml(std::move(data), options);
+    EXPECT_NE(page.find("<b>441</b><span>points</span>"), std::string::npos);
+    EXPECT_NE(page.find("The model has 441 points; this page shows 147, evenly chosen."),
+              std::string::npos);
 }
 
 }  // namespace

@@ -93,5 +93,16 @@ TEST(FrameFaults, ARepeatedFrameShowsTheLastGoodOne) {
     EXPECT_GT(repeated, 3);
 }
 
+// As after a seek.
+TEST(FrameFaults, WithoutAFrameBeforeNothingIsRepeated) {
+    FrameFaults faults({.share = 0.5, .in_a_row = 1}, kFaultCamera, 3);
+    std::int64_t first = 30;
+    while (faults.Of(first) != FrameFault::kRepeated) ++first;
+    Frame frame = GoodFrame(first);
+    faults.Apply(frame);
+    EXPECT_EQ(frame.depth_m, GoodFrame(first).depth_m);
+    EXPECT_EQ(frame.colour, GoodFrame(first).colour);
+}
+
 }  // namespace
 }  // namespace tessera

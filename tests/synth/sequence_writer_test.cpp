@@ -151,6 +151,20 @@ TEST(SequenceWriter, AFolderThatCannotBeMadeIsAnError) {
     EXPECT_NE(summary.message().find("/proc/nowhere"), std::string::npos);
 }
 
+// In the lists, a blank ends a word and # begins a comment.
+TEST(SeenObjects, NamesOfClassesAreOneWordInTheLists) {
+    AnalyticScene scene;
+    Furnisher add(scene);
+    scene.BeginInstance("a", "oak\tchair #");
+    add.Box(StandAt(0, 0, 0), {0, 0, 0}, {1, 1, 1}, add.Flat({1, 2, 3}));
+    RenderedView view;
+    view.instance = Image<std::uint16_t>(64, 48, 1);
+    SeenObjects objects(scene, 3);
+    for (int i = 0; i < 10; ++i) objects.Add(view, i, i);
+    EXPECT_NE(objects.ClassesText().find("\n1 oak_chair__\n"), std::string::npos);
+    EXPECT_NE(objects.DetectionsText().find(" oak_chair__ 0."), std::string::npos);
+}
+
 // Checks the stated error rates of the synthetic detector over many frames of one view.
 TEST(SeenObjects, DetectionsHaveTheirStatedMistakes) {
     AnalyticScene scene;
