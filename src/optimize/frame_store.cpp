@@ -42,7 +42,7 @@ Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe,
     stored.images = scratch_.Keep(std::move(images));
     bytes_ += stored.memory_bytes();
     frames_.push_back(std::move(stored));
-    while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
+    ThinToLimit();
     return Status::Ok();
 }
 
@@ -53,16 +53,25 @@ const StoredFrame* FrameStore::Find(std::int64_t frame_index) const {
     return frame != frames_.end() && frame->frame_index == frame_index ? &*frame : nullptr;
 }
 
-void FrameStore::AddDetections(std::int64_t frame_index, std::vector<Detection> detections) {
-    if (const StoredFrame* frame = Find(frame_index))
-        frames_[static_cast<std::size_t>(frame - frames_.data())].detections =
-            std::move(detections);
+void FrameStore::AddDetections(std::int64_t frame_index, std::vector<Detection> detections,
+                               const ClassSet& ignored) {
+    const StoredFrame* found = Find(frame_index);
+    if (found == nullptr) return;
+    StoredFrame& frame = frames_[static_cast<std::size_t>(found - frames_.data())];
+    bytes_ -= frame.memory_bytes();
+    frame.detections.emplace(std::move(detections), ignored);
+    bytes_ += frame.memory_bytes();
+    ThinToLimit();
 }
 
 void FrameStore::Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal) {
     frames_ = std::move(frames);
     next_ordinal_ = first_own_ = next_ordinal;
     for (const StoredFrame& f : frames_) bytes_ += f.memory_bytes();
+    ThinToLimit();
+}
+
+void FrameStore::ThinToLimit() {
     while (bytes_ > limit_bytes_ && stride_ < (1 << 20)) Thin();
 }
 

@@ -13,8 +13,10 @@
 #include "io/png_decoder.h"
 #include "io/png_encoder.h"
 #include "mapping/integrator.h"
+#include "optimize/stored_detections.h"
 #include "optimize/stored_images.h"
 #include "semantics/detector.h"
+#include "semantics/label_config.h"
 
 namespace tessera {
 
@@ -28,17 +30,21 @@ struct StoredFrame {
     StoredImages images;
     std::int64_t frame_index = 0;
     // As voted into the map; empty if the detector did not process the frame.
-    std::optional<std::vector<Detection>> detections;
+    std::optional<StoredDetections> detections;
 
-    std::size_t memory_bytes() const { return sizeof(StoredFrame) + images.memory_bytes(); }
+    std::size_t memory_bytes() const {
+        return sizeof(StoredFrame) + images.memory_bytes() +
+               (detections ? detections->memory_bytes() : 0);
+    }
 };
 
 // Owner thread only.
 class FrameStore {
   public:
-    // Images are kept in `scratch`. Of those that it leaves in memory, every second is dropped
-    // above the limit, then every second of the rest, and so on, so that the remaining frames cover
-    // the whole scan. Depth is stored in steps of 1 / `depth_units_per_m`, colour as JPEG.
+    // Images are kept in `scratch`. Those that it leaves in memory count towards the limit, and so
+    // do the detections. Above it every second frame is dropped, then every second of the rest, and
+    // so on, so that the remaining frames cover the whole scan. Depth is stored in steps of 1 /
+    // `depth_units_per_m`, colour as JPEG.
     FrameStore(std::size_t memory_limit_bytes, double depth_units_per_m,
                ImageScratch scratch = ImageScratch())
         : limit_bytes_(memory_limit_bytes),
@@ -49,8 +55,10 @@ class FrameStore {
     // not fuse is not kept. Returns errors of the encoder.
     Status Add(const Frame& frame, int keyframe, bool is_keyframe,
                const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view);
-    // Adds detections to a frame that this process added, if it is still stored.
-    void AddDetections(std::int64_t frame_index, std::vector<Detection> detections);
+    // Adds detections to a frame that this process added, if it is still stored. `ignored`: classes
+    // whose detections were dropped.
+    void AddDetections(std::int64_t frame_index, std::vector<Detection> detections,
+                       const ClassSet& ignored = {});
     // Before the first Add: continues with the frames of an earlier process, sorted by ordinal.
     void Resume(std::vector<StoredFrame> frames, std::int64_t next_ordinal);
     // Loads index (the ordinal), colour and depth. Reuses the storage of `frame` and leaves its
@@ -76,6 +84,7 @@ class FrameStore {
     int stride() const { return stride_; }
 
   private:
+    void ThinToLimit();
     void Thin();
     Status DecodeDepth(const std::vector<std::uint8_t>& png, DepthImage& depth_m);
 

@@ -28,11 +28,15 @@ void LoopCloser::Resume(Memory memory) {
     graph_.Resume(std::move(memory.graph));
     // Drops detections of classes that this run does not have.
     const std::optional<Labels>& labels = corrector_.labels();
-    for (StoredFrame& frame : memory.frames)
-        if (frame.detections)
-            std::erase_if(*frame.detections, [&](const Detection& d) {
-                return !labels || d.class_id < 1 || d.class_id > labels->classes.count();
-            });
+    for (StoredFrame& frame : memory.frames) {
+        if (!frame.detections) continue;
+        std::vector<Detection> detections = frame.detections->Unpack();
+        const auto unknown = [&](const Detection& d) {
+            return !labels || d.class_id < 1 || d.class_id > labels->classes.count();
+        };
+        if (std::erase_if(detections, unknown) > 0)
+            frame.detections = StoredDetections(std::move(detections), frame.detections->ignored());
+    }
     frames_.store().Resume(std::move(memory.frames), memory.next_ordinal);
     AddPlaces();
     MakeMissingViews();

@@ -52,9 +52,10 @@ class LoopCloser {
     // user, usually empty.
     std::string Add(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                     const Integrator::View& view, bool fused);
-    // Adds the detections of an earlier frame, at any time.
-    void AddDetections(std::int64_t frame_index, std::vector<Detection> detections) {
-        frames_.store().AddDetections(frame_index, std::move(detections));
+    // Adds the detections of an earlier frame, at any time. `ignored`: see FrameStore.
+    void AddDetections(std::int64_t frame_index, std::vector<Detection> detections,
+                       const ClassSet& ignored) {
+        frames_.store().AddDetections(frame_index, std::move(detections), ignored);
     }
     // Corrected maps that are begun from now on have labels.
     void EnableLabels(Labels labels) { corrector_.EnableLabels(std::move(labels)); }

@@ -14,8 +14,8 @@ void LoopConfig::Describe(ConfigParameters& p) {
     p.Add("max_features", max_features, {100, 5000}, "", "ORB features per keyframe");
     p.Add("memory_limit_mb", memory_limit_mb, {10.0, 1e6}, "MB",
           "for the frames from which a corrected map is built, where they cannot be kept in a "
-          "temporary file (in $TMPDIR, or /var/tmp); above it every second frame is dropped, "
-          "repeatedly");
+          "temporary file (in $TMPDIR, or /var/tmp), and for their detections; above it every "
+          "second frame is dropped, repeatedly");
     p.Add("min_gap", min_gap, {1, 1000}, "keyframes",
           "search for loops only among keyframes at least this much older");
     p.Add("candidates", candidates, {1, 50}, "",

@@ -116,8 +116,10 @@ Status MapRebuild::Fuse(const StoredFrame& stored) {
         if (Status status = pager_->Bring(view.T_world_camera, *map_, labels_.get()); !status.ok())
             return status;
     integrator_.Integrate(prepared_, view, *map_);
-    if (labels_ && stored.detections)
-        labels_->Label(*stored.detections, frame_.depth_m, view.T_world_camera, *map_);
+    if (labels_ && stored.detections) {
+        labels_->Ignore(stored.detections->ignored());
+        labels_->Label(stored.detections->Unpack(), frame_.depth_m, view.T_world_camera, *map_);
+    }
     return pager_ ? pager_->Release(view.T_world_camera, *map_, labels_.get()) : Status::Ok();
 }
 

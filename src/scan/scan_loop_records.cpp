@@ -7,11 +7,14 @@
 namespace tessera {
 namespace {
 
-void PutDetections(const std::optional<std::vector<Detection>>& detections, StateWriter& state) {
-    state.Put(detections.has_value());
-    if (!detections) return;
-    state.Put(static_cast<std::uint32_t>(detections->size()));
-    for (const Detection& d : *detections) {
+// At the end of a record. The ignored classes follow only if there are any: older programs wrote
+// none.
+void PutDetections(const std::optional<StoredDetections>& stored, StateWriter& state) {
+    state.Put(stored.has_value());
+    if (!stored) return;
+    const std::vector<Detection> detections = stored->Unpack();
+    state.Put(static_cast<std::uint32_t>(detections.size()));
+    for (const Detection& d : detections) {
         state.Put(d.name);
         state.Put(static_cast<std::int32_t>(d.class_id));
         for (const float value :
@@ -20,6 +23,10 @@ void PutDetections(const std::optional<std::vector<Detection>>& detections, Stat
         state.Put(static_cast<std::int32_t>(d.mask.width()));
         state.PutArray(std::span<const std::uint8_t>(d.mask.data(), d.mask.size()));
     }
+    std::vector<std::uint8_t> ignored;
+    for (std::size_t id = 0; id < stored->ignored().size(); ++id)
+        if (stored->ignored()[id]) ignored.push_back(static_cast<std::uint8_t>(id));
+    if (!ignored.empty()) state.PutArray(std::span<const std::uint8_t>(ignored));
 }
 
 bool GetDetection(StateReader& state, Detection& d) {
@@ -39,15 +46,23 @@ bool GetDetection(StateReader& state, Detection& d) {
     return true;
 }
 
-bool GetDetections(StateReader& state, std::optional<std::vector<Detection>>& detections) {
+bool GetDetections(StateReader& state, std::optional<StoredDetections>& stored) {
     bool there = false;
     std::uint32_t count = 0;
     if (!state.Get(there)) return false;
     if (!there) return true;
     if (!state.Get(count)) return false;
-    detections.emplace();
+    std::vector<Detection> detections;
     for (std::uint32_t i = 0; i < count; ++i)
-        if (!GetDetection(state, detections->emplace_back())) return false;
+        if (!GetDetection(state, detections.emplace_back())) return false;
+    std::vector<std::uint8_t> ids;
+    if (!state.at_end() && !state.GetArray(ids)) return false;
+    ClassSet ignored;
+    for (const std::uint8_t id : ids) {
+        if (id > LabelClasses::kMost) return false;
+        ignored.set(id);
+    }
+    stored.emplace(std::move(detections), ignored);
     return true;
 }
 

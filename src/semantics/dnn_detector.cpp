@@ -7,6 +7,7 @@
 #include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
+#include <utility>
 
 #include "core/input_file.h"
 #include "semantics/coco_names.h"
@@ -125,15 +126,15 @@ Detection DnnDetector::ToFrame(const RawDetection& raw, int width, int height) c
     Detection d;
     d.name = names_[static_cast<std::size_t>(raw.class_index)];
     d.probability = raw.probability;
-    const auto column = [&](float x) {
-        return std::clamp(static_cast<float>(x / scale_x_ - 0.5), 0.0f,
-                          static_cast<float>(width - 1));
+    // Pixel i reaches from the edge i to i + 1. A box that is narrower has one pixel.
+    const auto pixels = [](double low, double high, int size) {
+        const double last = size - 1, first = std::clamp(low, 0.0, last);
+        return std::pair(static_cast<float>(first),
+                         static_cast<float>(std::clamp(high - 1, first, last)));
     };
-    const auto row = [&](float y) {
-        return std::clamp(static_cast<float>(y / scale_y_ - 0.5), 0.0f,
-                          static_cast<float>(height - 1));
-    };
-    d.box = {column(raw.x_min), row(raw.y_min), column(raw.x_max), row(raw.y_max)};
+    const auto [x_min, x_max] = pixels(raw.x_min / scale_x_, raw.x_max / scale_x_, width);
+    const auto [y_min, y_max] = pixels(raw.y_min / scale_y_, raw.y_max / scale_y_, height);
+    d.box = {x_min, y_min, x_max, y_max};
     if (layout_.masks_output >= 0)
         d.mask = MaskOf(layout_, outputs_, raw, PixelsOf(d.box, width, height), scale_x_, scale_y_);
     return d;

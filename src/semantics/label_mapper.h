@@ -32,6 +32,8 @@ class LabelMapper {
         instance_view_.Select(settings.prediction);
         ignored_ = settings.ignored;
     }
+    // The same for the ignored classes alone.
+    void Ignore(const ClassSet& classes) { ignored_ = classes; }
 
     // `detections`: as returned by FilterWanted, for the frame with this depth and pose. The frame
     // need not be the last one fused. The map must have labels.

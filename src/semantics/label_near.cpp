@@ -3,26 +3,37 @@
 namespace tessera {
 namespace {
 
-const VoxelLabel* VoxelAt(const BlockMap& map, const Eigen::Array3i& voxel) {
-    const BlockId id = map.Find({voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3});
+const VoxelLabel* VoxelAt(const BlockMap& map, const KnownBlock* known,
+                          const Eigen::Array3i& voxel) {
+    const BlockCoord coord{voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3};
+    const BlockId id = known != nullptr && known->coord == coord ? known->id : map.Find(coord);
     if (id == kUnknownBlock) return nullptr;
     return map.label(id) + (voxel.x() & 7) + 8 * (voxel.y() & 7) + 64 * (voxel.z() & 7);
 }
 
-}  // namespace
-
-VoxelLabel LabelNear(const BlockMap& map, const Eigen::Vector3d& p_world) {
+VoxelLabel LabelNearPoint(const BlockMap& map, const KnownBlock* known,
+                          const Eigen::Vector3d& p_world) {
     const Eigen::Array3d at = p_world.array() / map.config().voxel_size_m;
     const Eigen::Array3i nearest = at.round().cast<int>();
-    const VoxelLabel* label = VoxelAt(map, nearest);
+    const VoxelLabel* label = VoxelAt(map, known, nearest);
     if (label != nullptr && label->count[0] > 0) return *label;
     int axis = 0;
     const Eigen::Array3d rest = at - nearest.cast<double>();
     rest.abs().maxCoeff(&axis);
     Eigen::Array3i next = nearest;
     next[axis] += rest[axis] > 0 ? 1 : -1;
-    label = VoxelAt(map, next);
+    label = VoxelAt(map, known, next);
     return label != nullptr ? *label : VoxelLabel{};
+}
+
+}  // namespace
+
+VoxelLabel LabelNear(const BlockMap& map, const Eigen::Vector3d& p_world) {
+    return LabelNearPoint(map, nullptr, p_world);
+}
+
+VoxelLabel LabelNear(const BlockMap& map, const KnownBlock& known, const Eigen::Vector3d& p_world) {
+    return LabelNearPoint(map, &known, p_world);
 }
 
 VoxelLabel LabelNear(const BlockMap& map, const BlockMesh& owner, const BlockMesh::Vertex& vertex) {

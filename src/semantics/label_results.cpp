@@ -100,11 +100,13 @@ TriangleMesh LabelMapper::LabelledVertices(
     TriangleMesh labelled;
     for (std::size_t i = 0; i < std::min(votes_.size(), meshes.size()); ++i) {
         if (votes_[i] == Votes::kNone || !meshes[i]) continue;
+        const KnownBlock known{meshes[i]->coord, map.Find(meshes[i]->coord)};
         for (const BlockMesh::Vertex& vertex : meshes[i]->vertices) {
-            const VertexLabel label = LabelOf(map, *meshes[i], vertex);
+            const Eigen::Vector3f p_world =
+                VertexPosition(*meshes[i], vertex, map.config().voxel_size_m);
+            const VertexLabel label = LabelOf(LabelNear(map, known, p_world.cast<double>()));
             if (label.instance == 0) continue;
-            labelled.vertices.push_back(
-                VertexPosition(*meshes[i], vertex, map.config().voxel_size_m));
+            labelled.vertices.push_back(p_world);
             labelled.labels.push_back(label);
         }
     }
@@ -169,8 +171,7 @@ std::vector<MapObject> LabelMapper::Objects(double voxel_size_m, TriangleMesh& l
         least_m2[objects.back().id] =
             std::max(kLeastArea_m2, kLeastSeenShare * instances_.SeenArea_m2(id));
     }
-    tbb::parallel_for(std::size_t{0}, objects.size(),
-                      [&](std::size_t i) { MeasureObject(labelled, objects[i]); });
+    MeasureObjects(labelled, objects);
     std::set<int> remains;
     for (const MapObject& o : objects)
         if (static_cast<double>(o.vertices) * voxel_size_m * voxel_size_m < least_m2[o.id])

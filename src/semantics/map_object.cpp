@@ -1,10 +1,16 @@
 #include "semantics/map_object.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <unordered_map>
+#include <vector>
 
 namespace tessera {
 namespace {
@@ -72,19 +78,19 @@ nlohmann::ordered_json Rounded(const Eigen::Vector3d& v) {
     return {to_tenth_mm(v.x()), to_tenth_mm(v.y()), to_tenth_mm(v.z())};
 }
 
-}  // namespace
-
-void MeasureObject(const TriangleMesh& mesh, MapObject& object) {
-    const auto is_its = [&](std::uint32_t v) { return mesh.labels[v].instance == object.id; };
+// An object's part of a mesh, in the mesh's order.
+struct ObjectSurface {
     WorldPoints points;
-    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-        if (is_its(v)) points.push_back(mesh.vertices[v].cast<double>());
+    std::vector<std::array<std::uint32_t, 3>> triangles;  // of the mesh's vertices
+};
+
+void MeasureSurface(const TriangleMesh& mesh, const ObjectSurface& surface, MapObject& object) {
+    const WorldPoints& points = surface.points;
     object.vertices = static_cast<std::int64_t>(points.size());
     if (points.empty()) return;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero(), mean = Eigen::Vector3d::Zero();
     double area = 0;
-    for (const auto& [ia, ib, ic] : mesh.triangles) {
-        if (!is_its(ia) || !is_its(ib) || !is_its(ic)) continue;
+    for (const auto& [ia, ib, ic] : surface.triangles) {
         const Eigen::Vector3d a = mesh.vertices[ia].cast<double>(),
                               b = mesh.vertices[ib].cast<double>(),
                               c = mesh.vertices[ic].cast<double>();
@@ -96,6 +102,29 @@ void MeasureObject(const TriangleMesh& mesh, MapObject& object) {
     object.centroid = area > 0 ? Eigen::Vector3d(moment / area) : mean;
     object.box = TrimmedBox(points, Eigen::Matrix3d::Identity());
     FitOrientedBox(points, object);
+}
+
+}  // namespace
+
+void MeasureObjects(const TriangleMesh& mesh, std::span<MapObject> objects) {
+    std::unordered_map<int, ObjectSurface> surfaces;  // by the object's number
+    for (const MapObject& object : objects) surfaces[object.id];
+    const auto surface_of = [&](int number) {
+        const auto found = surfaces.find(number);
+        return found != surfaces.end() ? &found->second : nullptr;
+    };
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+        if (ObjectSurface* surface = surface_of(mesh.labels[v].instance))
+            surface->points.push_back(mesh.vertices[v].cast<double>());
+    for (const auto& triangle : mesh.triangles) {
+        const auto [a, b, c] = triangle;
+        const int number = mesh.labels[a].instance;
+        if (mesh.labels[b].instance != number || mesh.labels[c].instance != number) continue;
+        if (ObjectSurface* surface = surface_of(number)) surface->triangles.push_back(triangle);
+    }
+    tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+        MeasureSurface(mesh, surfaces.at(objects[i].id), objects[i]);
+    });
 }
 
 std::string ObjectsJson(const std::vector<MapObject>& objects) {

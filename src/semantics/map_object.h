@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,10 +30,10 @@ struct MapObject {
     std::vector<float> embedding;  // of length 1; empty if the detector gives none
 };
 
-// Fills centroid, boxes and vertex count of object `id` from the vertices with that instance. The
-// boxes leave out the outermost 0.5 % of the vertices on each side of each axis, because single
-// voxels may be mislabelled.
-void MeasureObject(const TriangleMesh& mesh, MapObject& object);
+// Fills centroid, boxes and vertex count of each object from the vertices with its number. Reads
+// the mesh once, however many objects there are. The boxes leave out the outermost 0.5 % of the
+// vertices on each side of each axis, because single voxels may be mislabelled.
+void MeasureObjects(const TriangleMesh& mesh, std::span<MapObject> objects);
 
 // Returns the text of objects.json: a list with one entry per object.
 std::string ObjectsJson(const std::vector<MapObject>& objects);

@@ -65,6 +65,7 @@ void FrameMapping::Label(const DepthImage& depth_m, const Eigen::Isometry3d& T_w
     std::erase_if(report.detections, [this](const Detection& d) {
         return label_settings_.ignored[static_cast<std::size_t>(d.class_id)];
     });
+    report.ignored = label_settings_.ignored;
     stage_.Apply(label_settings_);
     report.votes = stage_.Label(report.detections, depth_m, T_world_camera);
     report.vote_ms = watch.LapMs();

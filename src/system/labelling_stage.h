@@ -24,6 +24,7 @@ struct LabelReport {
     double stamp_s = 0;
     double colour_stamp_s = 0;          // as recorded, not as corrected
     std::vector<Detection> detections;  // wanted classes only
+    ClassSet ignored;                   // classes whose detections were dropped before the vote
     // Depth of detections in labels.dynamic's classes. Empty depth image: none was detected.
     MovingHint moving;
     VoteCount votes;

@@ -65,7 +65,9 @@ void LiveMapping::TakeLabels(LabellingThread::Answer& answer) {
     life_.Label(job.frame->depth_m, job.T_world_camera, answer.report);
     if (!answer.report.moving.depth_m.empty())
         links_.hints.Push({std::move(answer.report.moving), job.T_world_camera, version()});
-    if (loops_) loops_->OfferDetections(job.frame->index, answer.report.detections, job.map);
+    if (loops_)
+        loops_->OfferDetections(job.frame->index, answer.report.detections, answer.report.ignored,
+                                job.map);
     FrameOutcome outcome;
     outcome.kind = FrameOutcome::Kind::kLabels;
     outcome.labels = std::move(answer.report);

@@ -96,7 +96,7 @@ double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked,
     if (report.tracked())
         AddNote(closer_.Add(frame, tracked.prepared, report.track, tracked.view, report.fused),
                 report.warning);
-    if (labels) closer_.AddDetections(frame.index, labels->detections);
+    if (labels) closer_.AddDetections(frame.index, labels->detections, labels->ignored);
     if (auto correction = closer_.Step(config_.rebuild_frames)) {
         tracking.Move(correction->T_new_old);
         search_.Move(correction->T_new_old);

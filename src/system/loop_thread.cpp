@@ -51,12 +51,13 @@ void LoopThread::Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Fr
 }
 
 void LoopThread::OfferDetections(std::int64_t frame_index, std::vector<Detection> detections,
-                                 MapVersion map) {
+                                 const ClassSet& ignored, MapVersion map) {
     Job job;
     job.kind = Job::Kind::kDetections;
     job.map = map;
     job.frame_index = frame_index;
     job.detections = std::move(detections);
+    job.ignored = ignored;
     worker_.TryPush(std::move(job));
 }
 
@@ -155,7 +156,7 @@ void LoopThread::Do(Job& job) {
             closer_->EnableLabels(*settings_.labels);
             break;
         case Job::Kind::kDetections:
-            closer_->AddDetections(job.frame_index, std::move(job.detections));
+            closer_->AddDetections(job.frame_index, std::move(job.detections), job.ignored);
             journal_.Touch(job.frame_index);
             break;
         case Job::Kind::kMap:

@@ -73,7 +73,7 @@ class LoopThread {
     // some or all (KeptOneIn); if the job queue is full, nothing.
     void Offer(std::unique_ptr<TrackedFrame> tracked, std::unique_ptr<Frame> frame, MapVersion map);
     void OfferDetections(std::int64_t frame_index, std::vector<Detection> detections,
-                         MapVersion map);
+                         const ClassSet& ignored, MapVersion map);
     // While this holds, copy the map in use, some blocks at a time, and give the copy, or null if
     // there is no memory for one. It must hold the frames offered so far, and no others.
     bool wants_map() const { return map_.load() == Asked::kYes; }
@@ -128,6 +128,7 @@ class LoopThread {
         std::unique_ptr<Frame> frame;
         std::int64_t frame_index = 0;
         std::vector<Detection> detections;
+        ClassSet ignored;  // classes whose detections were dropped
         std::optional<LoopCloser::Labels> labels;
         std::unique_ptr<BlockMap> copy;
     };

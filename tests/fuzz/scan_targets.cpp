@@ -39,7 +39,9 @@ FrameRecord SomeFrame() {
     FrameRecord record;
     record.in_store = true;
     record.stored.images = StoredImages({{1, 2, 3}, {4, 5}});
-    record.stored.detections = {{"cup", 1, 0.9f, {1, 2, 3, 4}, Image<std::uint8_t>(3, 2)}};
+    record.stored.detections.emplace(
+        std::vector<Detection>{{"cup", 1, 0.9f, {1, 2, 3, 4}, Image<std::uint8_t>(3, 2)}},
+        ClassSet().set(2));
     return record;
 }
 

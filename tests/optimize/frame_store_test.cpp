@@ -70,6 +70,51 @@ TEST(FrameStore, OverItsLimitKeepsKeyframesAndAnEvenShareOfTheRest) {
     for (const std::int64_t o : ordinals) EXPECT_TRUE(o == 5 || o % store.stride() == 0) << o;
 }
 
+Detection MaskedDetection() {
+    Detection cup{"cup", 1, 0.9f, {10, 10, 109, 90}, Image<std::uint8_t>(100, 81, 0)};
+    for (int y = 0; y < 81; ++y)
+        for (int x = 0; x < 100; ++x) cup.mask(x, y) = (7 * x + 3 * y) % 5 < 2;
+    cup.embedding = {0.5f, -1, 2};
+    return cup;
+}
+
+// 8100 pixels are 1013 bytes.
+TEST(FrameStore, MasksCountAndTakeOneBitAPixel) {
+    FrameStore store(100000000, 5000);
+    ASSERT_TRUE(store.Add(FrameAt(0), 0, true, Eigen::Isometry3d::Identity(), {}).ok());
+    const std::size_t before = store.memory_bytes();
+    const Detection cup = MaskedDetection();
+    store.AddDetections(0, {cup, {"book", 2, 0.8f, {1, 2, 3, 4}, {}}}, ClassSet().set(3));
+    EXPECT_GE(store.memory_bytes() - before, 1013 + 3 * sizeof(float));
+    EXPECT_LT(store.memory_bytes() - before, 2000u);
+    EXPECT_TRUE(store.frames()[0].detections->ignored()[3]);
+    const std::vector<Detection> back = store.frames()[0].detections->Unpack();
+    ASSERT_EQ(back.size(), 2u);
+    EXPECT_EQ(back[0].name, "cup");
+    EXPECT_EQ(back[0].box, cup.box);
+    EXPECT_TRUE(back[0].mask == cup.mask);
+    EXPECT_EQ(back[0].embedding, cup.embedding);
+    EXPECT_TRUE(back[1].mask.empty());
+}
+
+TEST(FrameStore, DetectionsOverTheLimitThinTheFrames) {
+    const auto fill = [](FrameStore& store) {
+        for (int i = 0; i < 8; ++i)
+            ASSERT_TRUE(store.Add(FrameAt(i), 0, i == 0, Eigen::Isometry3d::Identity(), {}).ok());
+    };
+    FrameStore unlimited(100000000, 5000, ImageScratch("/absent"));
+    fill(unlimited);
+    const std::size_t limit = unlimited.memory_bytes() + 5000;
+    FrameStore store(limit, 5000, ImageScratch("/absent"));
+    fill(store);
+    EXPECT_EQ(store.stride(), 1);
+    for (int i = 0; i < 8; ++i) store.AddDetections(i, {MaskedDetection()});
+    EXPECT_EQ(store.stride(), 2);
+    EXPECT_LE(store.memory_bytes(), limit);
+    ASSERT_EQ(store.frames().size(), 4u);
+    for (const StoredFrame& frame : store.frames()) EXPECT_TRUE(frame.detections.has_value());
+}
+
 // Frames stored by an earlier process may be damaged. Loading reports an error, and the map is
 // built from the others.
 TEST(FrameStore, DamagedFramesAreRefusedAndLeftOutOfAMap) {
@@ -163,6 +208,35 @@ TEST(MapRebuild, EqualsAFreshFusion) {
         }
     }
     EXPECT_GT(labelled, 0);
+}
+
+// Ten frames show an object. The next eighty do, too, but no longer look for its class.
+TEST(MapRebuild, ObjectsOfAClassThatWasIgnoredStay) {
+    Frame frame = FrameAt(0, false);
+    const Detection cup{"cup", 1, 0.9f, {60, 40, 110, 80}, Image<std::uint8_t>(51, 41, 1)};
+    FieldSettings settings;
+    settings.camera = SmallCamera();
+    settings.map = {.voxel_size_m = 0.04, .truncation_m = 0.16};
+    const auto stays = [&](const ClassSet& ignored) {
+        FrameStore store(100000000, 5000);
+        for (int i = 0; i < 90; ++i) {
+            frame.index = i;
+            EXPECT_TRUE(store.Add(frame, 0, i == 0, Eigen::Isometry3d::Identity(), {}).ok());
+            if (i < 10)
+                store.AddDetections(i, {cup});
+            else
+                store.AddDetections(i, {}, ignored);
+        }
+        MapRebuild rebuild(
+            settings, {Eigen::Isometry3d::Identity()},
+            std::make_unique<LabelMapper>(LabelConfig{}, LabelClasses{}, SmallCamera()));
+        EXPECT_TRUE(rebuild.Step(store, 90).value());
+        const std::unique_ptr<LabelMapper> labels = rebuild.TakeLabels();
+        EXPECT_EQ(labels->instances().last(), 1);
+        return labels->instances().last() == 1 && labels->instances().stands(1);
+    };
+    EXPECT_TRUE(stays(ClassSet().set(1)));
+    EXPECT_FALSE(stays({}));
 }
 
 }  // namespace

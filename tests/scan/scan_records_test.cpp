@@ -85,6 +85,34 @@ TEST(ScanRecords, AKeyframeThatIsCutOffOrTooLongIsRefused) {
     EXPECT_EQ(accepted, 1);
 }
 
+// A frame of which no class was ignored has the record that it had before they were kept.
+TEST(ScanRecords, AFrameComesBackWithItsIgnoredClasses) {
+    FrameRecord record;
+    record.stored.images = StoredImages({{1, 2, 3}, {4, 5}});
+    const std::vector<Detection> detections{
+        {"cup", 1, 0.9f, {1, 2, 3, 3}, Image<std::uint8_t>(3, 2, 1)}};
+    record.stored.detections.emplace(detections);
+    const Bytes of_none = record.Encode().value();
+    record.stored.detections.emplace(detections, ClassSet().set(2).set(250));
+    const Bytes bytes = record.Encode().value();
+    EXPECT_EQ(bytes.size(), of_none.size() + 10);
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        FrameRecord cut;
+        EXPECT_EQ(cut.Decode(std::span(bytes).first(size)), size == of_none.size()) << size;
+    }
+    FrameRecord back;
+    ASSERT_TRUE(back.Decode(bytes));
+    EXPECT_EQ(back.stored.detections->ignored(), ClassSet().set(2).set(250));
+    EXPECT_EQ(back.Encode().value(), bytes);
+    ASSERT_TRUE(back.Decode(of_none));
+    EXPECT_TRUE(back.stored.detections->ignored().none());
+    ASSERT_EQ(back.stored.detections->Unpack().size(), 1u);
+    EXPECT_TRUE(back.stored.detections->Unpack()[0].mask == detections[0].mask);
+    Bytes wrong = bytes;
+    wrong.back() = 251;
+    EXPECT_FALSE(back.Decode(wrong));
+}
+
 TEST(ScanRecords, EdgesOfFormat1AreRead) {
     Bytes bytes;
     StateWriter state(bytes);

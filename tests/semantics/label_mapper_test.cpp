@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <vector>
 
 #include "mapping/analytic_fields.h"
 #include "mapping/mesher.h"
@@ -162,6 +166,45 @@ TEST_F(LabelMapperTest, ATenthOfWhatWasSeenIsNoObject) {
     };
     EXPECT_EQ(objects_of(0.15), 1u);
     EXPECT_EQ(objects_of(0.07), 0u);  // 200 square centimetres
+}
+
+// Vertices of a bent strip, in turn of object 3, 7, none and 9: what is measured of an object does
+// not depend on the others.
+TEST(MeasureObjects, EachIsMeasuredAsIfAlone) {
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+        const float t = 0.01f * static_cast<float>(i);
+        mesh.vertices.emplace_back(t, std::sin(3 * t), 0.2f * std::cos(7 * t));
+        mesh.labels.push_back({1, std::array<std::uint16_t, 4>{3, 7, 0, 9}[i % 4]});
+        if (i < 12) continue;
+        mesh.triangles.push_back({i, i - 4, i - 12});
+        mesh.triangles.push_back({i, i - 4, i - 7});  // belongs to two
+    }
+    std::vector<MapObject> objects(4);
+    const std::array<int, 4> numbers{9, 3, 5, 7};  // nothing is of 5
+    for (std::size_t i = 0; i < 4; ++i) objects[i].id = numbers[i];
+    MeasureObjects(mesh, objects);
+    for (const MapObject& object : objects) {
+        TriangleMesh its = mesh;
+        for (VertexLabel& label : its.labels)
+            if (label.instance != object.id) label = {};
+        const auto others = [&](const std::array<std::uint32_t, 3>& triangle) {
+            return std::ranges::any_of(
+                triangle, [&](std::uint32_t v) { return its.labels[v].instance != object.id; });
+        };
+        std::erase_if(its.triangles, others);
+        MapObject alone;
+        alone.id = object.id;
+        MeasureObjects(its, {&alone, 1});
+        EXPECT_EQ(object.vertices, object.id == 5 ? 0 : 100);
+        EXPECT_EQ(object.vertices, alone.vertices);
+        EXPECT_EQ(object.centroid, alone.centroid) << object.id;
+        EXPECT_EQ(object.T_world_oriented.matrix(), alone.T_world_oriented.matrix()) << object.id;
+        EXPECT_EQ(object.oriented_size, alone.oriented_size) << object.id;
+        if (object.id == 5) continue;
+        EXPECT_EQ(object.box.min(), alone.box.min()) << object.id;
+        EXPECT_EQ(object.box.max(), alone.box.max()) << object.id;
+    }
 }
 
 }  // namespace

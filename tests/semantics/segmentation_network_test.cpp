@@ -92,7 +92,11 @@ TEST(SegmentationNetwork, MaskOfTheFramesPixels) {
     const Detection& book = found.value()[0];
     EXPECT_EQ(book.name, "cook book");
     EXPECT_FLOAT_EQ(book.probability, 0.75f);
+    // Edges 16 to 45 and 10 to 34: whole pixels, 29 x 24 of them.
+    EXPECT_EQ(book.box, (DetectionBox{16, 10, 44, 33}));
     const PixelBox pixels = PixelsOf(book.box, kInput, kInput);
+    EXPECT_EQ(pixels.width(), 29);
+    EXPECT_EQ(pixels.height(), 24);
     ASSERT_EQ(book.mask.width(), pixels.width());
     ASSERT_EQ(book.mask.height(), pixels.height());
     int inside = 0;

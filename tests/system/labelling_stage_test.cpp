@@ -223,6 +223,7 @@ TEST_P(SwitchedLabelling, FollowsTheSettings) {
     settings.labels.ignored[cup] = true;
     link.settings.Push(ViewerSettings(settings));
     EXPECT_EQ(next_count(), 0u);
+    EXPECT_TRUE(outcomes.back().labels->ignored[cup]);  // for a map made again later
     Ask(Command::kStop);
     TakeAll();
 }

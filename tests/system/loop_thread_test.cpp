@@ -198,7 +198,7 @@ TEST_F(LoopThreadTest, SettledItMovesTheMapInUse) {
     answers = true;
     GiveMap();
     thread.Settle();
-    for (int i = 0; i < 50; ++i) thread.OfferDetections(0, {}, {0, 0});
+    for (int i = 0; i < 50; ++i) thread.OfferDetections(0, {}, {}, {0, 0});
     mapping.Wait([&] { return thread.waiting() == 0; });
     TakeCorrections();
     EXPECT_EQ(corrections, 0);
