@@ -122,8 +122,7 @@ void Instances::Assign(const std::vector<ObservedObject>& observed,
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < observed.size(); ++i) {
         for (const InstanceId id : ids())  // instances whose votes are still outvoted
-            if (At(visible, id).pixels < kLeastVisible && !observed[i].overlaps.contains(id) &&
-                Resolve(id) == id && ClassOf(id) == observed[i].class_id)
+            if (!visible.contains(id) && Resolve(id) == id && ClassOf(id) == observed[i].class_id)
                 if (const double space = IntersectionOverUnion(observed[i].box, records_[id].box);
                     space >= kSameUnseen)
                     candidates.push_back({0.1 * space, i, id});

@@ -132,22 +132,6 @@ TEST(Instances, WhatTheMapDoesNotShowYetIsKnownByItsPlace) {
     EXPECT_NE(instances.Match({Seen(5, {{a, 90}}), beside}, {{a, {150}}})[1], b);
 }
 
-// So few pixels of it are no evidence that the map shows it where it is.
-TEST(Instances, AStrayPixelDoesNotHideAPlace) {
-    Instances instances({});
-    const InstanceId a = Confirmed(instances, 5);
-    ObservedObject beside = Seen(5, {{a, 50}}, 60);
-    beside.box = {Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(4, 1, 1)};
-    const auto seen_with = [&](std::map<InstanceId, VisibleObject> visible) {
-        visible[a] = {150};
-        return instances.Match({Seen(5, {{a, 90}}), beside}, visible)[1];
-    };
-    const InstanceId b = seen_with({});
-    EXPECT_EQ(seen_with({{b, {1}}}), b);
-    EXPECT_EQ(seen_with({{b, {19}}}), b);
-    EXPECT_NE(seen_with({{b, {20}}}), b);
-}
-
 ObservedObject SeenLike(std::map<InstanceId, int> overlaps, std::vector<double> embedding,
                         float probability) {
     ObservedObject o = Seen(5, std::move(overlaps));
