@@ -17,7 +17,8 @@ ShownDrift FindShownDrift(const Keyframes& keyframes, double aligned_factor, dou
     int witnesses = 0;
     double earlier_m = 0;
     const int last = keyframes.last().id;
-    for (int id = last; id > 0; --id)
+    for (int id = last; id > 0; --id) {
+        if (id == last - kRecent && witnesses < kWitnesses) return {};
         for (const Overlap& overlap : keyframes[id].overlaps) {
             if (!IsOlder(overlap, id) || !Contradicts(overlap, aligned_factor)) continue;
             const Keyframe& old = keyframes[overlap.with];
@@ -33,6 +34,7 @@ ShownDrift FindShownDrift(const Keyframes& keyframes, double aligned_factor, dou
             shown.old = &old;
             shown.drift = implied;
         }
+    }
     if (witnesses < kWitnesses) return {};
     shown.worth_a_solution =
         shown.drift.off_m > earlier_m || last % (1 + keyframes.size() / kKeyframes) == 0;

@@ -147,13 +147,18 @@ TEST(PathMotion, TheTwistAndTheBlurAreThoseOfTheTurn) {
     EXPECT_EQ(blur_px(5 / 30.0), 0);  // a gap
 }
 
-TEST(TextureView, TheGainIsThatOfTheModelsColours) {
+TriangleMesh PaintedWall() {
     TriangleMesh wall = Square({-0.5f, -0.4f, 0}, {1, 0, 0}, {0, 1, 0}, 0.9f, 40);
     for (std::size_t i = 0; i < wall.vertices.size(); ++i) {
         const Eigen::Array3f paint = WallPaint(wall.vertices[i].x(), wall.vertices[i].y());
         wall.colours[i] = {static_cast<std::uint8_t>(paint[0]), static_cast<std::uint8_t>(paint[1]),
                            static_cast<std::uint8_t>(paint[2])};
     }
+    return wall;
+}
+
+TEST(TextureView, TheGainIsThatOfTheModelsColours) {
+    const TriangleMesh wall = PaintedWall();
     const Eigen::Array3f exposure(0.8f, 0.7f, 1.1f);
     TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0, exposure), {});
     EstimateGain(wall, view);
@@ -166,12 +171,7 @@ TEST(TextureView, TheGainIsThatOfTheModelsColours) {
 
 // The wall is a 250th of the mesh: of 20000 vertices spread over it, the view shows about 80.
 TEST(TextureView, TheGainIsFoundInASmallPartOfALargeMesh) {
-    TriangleMesh mesh = Square({-0.5f, -0.4f, 0}, {1, 0, 0}, {0, 1, 0}, 0.9f, 40);
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        const Eigen::Array3f paint = WallPaint(mesh.vertices[i].x(), mesh.vertices[i].y());
-        mesh.colours[i] = {static_cast<std::uint8_t>(paint[0]), static_cast<std::uint8_t>(paint[1]),
-                           static_cast<std::uint8_t>(paint[2])};
-    }
+    TriangleMesh mesh = PaintedWall();
     Append(mesh, Square({50, 50, 0}, {1, 0, 0}, {0, 1, 0}, 1, 640));
     const Eigen::Array3f exposure(0.8f, 0.7f, 1.1f);
     TextureView view = MakeTextureView(WallCamera(), WallFrame({0, 0, -1}, 0, exposure), {});

@@ -32,23 +32,23 @@ TEST(TrackingSection, EqualStatesAreOnePiece) {
     EXPECT_NE(html.find("<td>4.00</td><td>10</td>"), std::string::npos) << html;
 }
 
-TEST(TrackingSection, ASingleLostFrameOfAnHourIsSeen) {
+// Frame 70001 of 100000 is lost.
+std::string HourWithALostFrame() {
     ReportData data;
     data.frames.emplace();
     for (int i = 0; i < 100000; ++i)
         data.frames->rows.push_back(
             Frame(i / 30.0, i == 70001 ? FrameState::kLost : FrameState::kFused));
-    EXPECT_EQ(Occurrences(TrackingSection(data), "<rect class=\"lost\""), 1u);
+    return TrackingSection(data);
+}
+
+TEST(TrackingSection, ASingleLostFrameOfAnHourIsSeen) {
+    EXPECT_EQ(Occurrences(HourWithALostFrame(), "<rect class=\"lost\""), 1u);
 }
 
 // It is not the first of its 490th part of the time.
 TEST(TrackingSection, ALostFrameColoursOnlyItsPlace) {
-    ReportData data;
-    data.frames.emplace();
-    for (int i = 0; i < 100000; ++i)
-        data.frames->rows.push_back(
-            Frame(i / 30.0, i == 70001 ? FrameState::kLost : FrameState::kFused));
-    const std::string html = TrackingSection(data);
+    const std::string html = HourWithALostFrame();
     for (const char* piece : {"<rect class=\"fused\" x=\"56.00\" y=\"26\" width=\"343.00\"",
                               "<rect class=\"lost\" x=\"399.00\" y=\"26\" width=\"1.00\"",
                               "<rect class=\"fused\" x=\"400.00\" y=\"26\" width=\"146.00\""})
