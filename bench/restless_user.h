@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -54,6 +56,15 @@ struct Part {
     std::vector<double> rss_mb, heap_mb, wait_ms;  // heap: in use, without the maps' voxels
     int lost = 0;
 };
+
+// Mean and its standard error.
+inline std::string MeanOf(const std::vector<double>& values) {
+    const double n = static_cast<double>(values.size());
+    double mean = 0, square = 0;
+    for (const double v : values) mean += v / n;
+    for (const double v : values) square += (v - mean) * (v - mean);
+    return n < 2 ? "?" : fmt::format("{:.0f} +- {:.0f}", mean, std::sqrt(square / (n * (n - 1))));
+}
 
 // After a reset, when what is left is not the map's.
 inline double LeastMb(const Part& part) {
@@ -109,6 +120,11 @@ class RestlessUser {
         }
         for (const auto& [name, count] : acts_) fmt::print("{} {}, ", count, name);
         const double first = LeastMb(parts_[1]), last = LeastMb(parts_[kParts - 1]);
+        const auto half =
+            after_reset_mb_.begin() + static_cast<std::ptrdiff_t>(after_reset_mb_.size() / 2);
+        fmt::print("\nin use {} s after a reset: {} MB in the first half, {} MB in the second\n",
+                   kSettled_s, MeanOf({after_reset_mb_.begin(), half}),
+                   MeanOf({half, after_reset_mb_.end()}));
         fmt::print("memory {:+.1f} % from part 2 to {}, longest wait {:.0f} ms\n",
                    100 * (last / first - 1), kParts, longest_ms);
         return last / first - 1 <= kMostGrowth && longest_ms <= kMostWait_ms;
@@ -116,6 +132,7 @@ class RestlessUser {
 
   private:
     static constexpr int kStep_ms = 20;
+    static constexpr double kSettled_s = 2;
 
     void TakeWhatIsShown(Part& part) {
         FrameUpdate frame;
@@ -166,6 +183,10 @@ class RestlessUser {
         using Kind = ViewerCommand::Kind;
         if (now_s < resume_s_) return;
         if (resume_s_ > 0) Send(Kind::kResume, ""), resume_s_ = 0;
+        if (now_s >= reset_s_ + kSettled_s) {
+            after_reset_mb_.push_back(HeapMb());
+            reset_s_ = std::numeric_limits<double>::infinity();
+        }
         // At fixed times, so that the parts can be compared.
         if (now_s >= next_reset_s_) {
             ++acts_["resets"];
@@ -173,6 +194,7 @@ class RestlessUser {
                        RssMb(), HeapMb());
             next_reset_s_ += options_.reset_s;
             Send(Kind::kReset, "");
+            reset_s_ = now_s;
         }
         if (Sometimes(20, "meshes saved")) Send(Kind::kSaveMesh, options_.out + "/saved.ply");
         if (Sometimes(40, "recordings begun or ended")) {
@@ -205,7 +227,9 @@ class RestlessUser {
     ViewerSettings settings_;
     std::array<Part, kParts> parts_;
     std::map<std::string, int> acts_;
+    std::vector<double> after_reset_mb_;  // heap; what stays when nothing is scanned
     double resume_s_ = 0, next_reset_s_ = options_.reset_s;
+    double reset_s_ = std::numeric_limits<double>::infinity();  // the latest, if not looked at yet
     int recordings_ = 0;
     bool recording_ = false;
 };
