@@ -88,11 +88,13 @@ std::string PublishedName(const fs::path& folder, const std::string& by_layout) 
 // nullopt if the camera is unknown.
 Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
                                                     const std::string& published,
-                                                    std::vector<std::string>& notes) {
+                                                    FolderLayout& layout) {
+    std::vector<std::string>& notes = layout.notes;
     const fs::path file = folder / "camera.yaml";
     if (Exists(file)) {
         const Result<CameraCalibration> read = ReadCameraFile(file.string());
         if (!read.ok()) return read.status();
+        layout.camera_from = "camera.yaml";
         if (!read.value().depth_scale_given)
             notes.push_back(fmt::format(
                 "camera.yaml has no depth_scale: assuming {} stored units per metre; correct it if "
@@ -103,16 +105,18 @@ Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
     const auto open3d = ReadOpen3dCamera(folder.string());
     if (!open3d.ok()) return open3d.status();
     if (open3d.value()) {
+        layout.camera_from = open3d.value()->file;
         notes.push_back(fmt::format("camera from {}, depth in millimetres", open3d.value()->file));
         return std::optional(open3d.value()->calibration);
     }
     const std::string name = PublishedName(folder, published);
     std::optional<CameraCalibration> camera = PublishedCamera(name);
-    if (camera)
+    if (camera) {
+        layout.camera_from = "the published calibration of " + name;
         notes.push_back(
-            fmt::format("no camera.yaml: using the published calibration of {}; add a camera.yaml "
-                        "if this is a different camera",
-                        name));
+            fmt::format("no camera.yaml: using {}; add a camera.yaml if this is a different camera",
+                        layout.camera_from));
+    }
     return camera;
 }
 
@@ -198,7 +202,7 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
 
     FolderLayout result;
     const std::string published = Characterise(folder, layout.value(), result);
-    const auto calibration = FindCamera(folder, published, result.notes);
+    const auto calibration = FindCamera(folder, published, result);
     if (!calibration.ok()) return calibration.status();
     result.camera_known = calibration.value().has_value();
     result.calibration = calibration.value().value_or(CameraCalibration());

@@ -24,6 +24,7 @@ struct FolderLayout {
     CameraCalibration calibration;
     // False if the camera is unknown. The calibration then holds nothing but its frame rate.
     bool camera_known = true;
+    std::string camera_from;          // as in SourceInfo; "": unknown
     bool registration_known = true;   // false: the colour camera's place is another device's
     std::uint16_t invalid_depth = 0;  // a stored value that means "no measurement", besides 0
     StampCorrection correction;       // already in the frames' stamps

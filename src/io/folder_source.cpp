@@ -19,6 +19,7 @@ class FolderSource : public FrameSource {
         info_.kind = layout_.kind;
         info_.camera = layout_.calibration.pinhole;
         info_.camera_known = layout_.camera_known;
+        info_.camera_from = layout_.camera_from;
         info_.registration_known = layout_.registration_known;
         info_.one_camera = !layout_.calibration.colour;
         info_.frame_count = static_cast<std::int64_t>(layout_.frames.size());

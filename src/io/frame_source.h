@@ -34,6 +34,8 @@ struct SourceInfo {
     std::string kind;          // "TUM folder", "synthetic scene", ...
     PinholeCamera camera;      // camera model of the delivered frames (after rectification)
     bool camera_known = true;  // false: camera unknown, `camera` is a guess
+    // Where `camera` is from, or what the guess is: "camera.yaml", "the device", ...
+    std::string camera_from = "the source";
     // False: depth and colour come from two cameras, and were brought into register by their known
     // calibration. One estimate for both would be wrong.
     bool one_camera = true;

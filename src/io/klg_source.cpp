@@ -16,16 +16,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std::string>& notes) {
+// Says in `info` where the camera is from.
+Result<CameraCalibration> FindKlgCamera(const std::string& path, SourceInfo& info) {
     const fs::path file = fs::path(path).parent_path() / "camera.yaml";
     std::error_code ignored;
     constexpr double kKlgDepthScale = 1000;
     if (fs::exists(file, ignored)) {
         Result<CameraCalibration> read = ReadCameraFile(file.string());
+        info.camera_from = "camera.yaml";
         if (read.ok() && !read.value().depth_scale_given) read.value().depth_scale = kKlgDepthScale;
         return read;
     }
-    notes.push_back(
+    info.camera_known = false;
+    info.camera_from = "a Kinect's focal length";
+    info.notes.push_back(
         "no camera.yaml next to the log: assuming a focal length of 528 pixels; add a camera.yaml "
         "if this is a different camera");
     CameraCalibration calibration;
@@ -36,13 +40,14 @@ Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std
 
 class KlgSource : public FrameSource {
   public:
-    KlgSource(InputFile file, KlgIndex index, std::vector<std::string> notes,
-              const CameraCalibration& calibration, const FolderSourceConfig& config)
+    KlgSource(InputFile file, KlgIndex index, SourceInfo info, const CameraCalibration& calibration,
+              const FolderSourceConfig& config)
         : path_(file.path()),
           file_(std::move(file)),
           entries_(std::move(index.entries)),
           decoder_(calibration, {config.rectify, config.swap_red_blue}),
-          correction_(StampCorrection::Of(config.colour_delay_s, true)) {
+          correction_(StampCorrection::Of(config.colour_delay_s, true)),
+          info_(std::move(info)) {
         info_.name = path_;
         info_.kind = ".klg log";
         info_.camera = calibration.pinhole;
@@ -54,7 +59,6 @@ class KlgSource : public FrameSource {
         info_.lens_corrected = decoder_.corrects_lens();
         info_.has_colour =
             std::ranges::any_of(entries_, [](const KlgEntry& e) { return e.colour_bytes > 0; });
-        info_.notes = std::move(notes);
         info_.warnings = std::move(index.warnings);
     }
 
@@ -123,8 +127,8 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path,
     if (Status status = config.Validate(); !status.ok()) return status;
     Result<InputFile> file = InputFile::Open(path);
     if (!file.ok()) return file.status();
-    std::vector<std::string> notes;
-    Result<CameraCalibration> calibration = FindKlgCamera(path, notes);
+    SourceInfo info;
+    Result<CameraCalibration> calibration = FindKlgCamera(path, info);
     if (!calibration.ok()) return calibration.status();
     if (Status status = CheckOneSize(calibration.value()); !status.ok())
         return Status::Error(path + ": its camera.yaml: " + status.message());
@@ -132,7 +136,7 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path,
     Result<KlgIndex> index = ReadKlgIndex(file.value(), calibration.value().pinhole);
     if (!index.ok()) return index.status();
     auto source = std::make_unique<KlgSource>(std::move(file.value()), std::move(index.value()),
-                                              std::move(notes), calibration.value(), config);
+                                              std::move(info), calibration.value(), config);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));
 }

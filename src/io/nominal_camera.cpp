@@ -58,6 +58,7 @@ Status AssumeCamera(FolderLayout& layout) {
     const double middle = values.empty() ? 0 : Median(values), unit = UnitOf(values, middle);
     layout.calibration.pinhole = camera;
     layout.calibration.depth_scale = unit;
+    layout.camera_from = kNominalCamera;
     layout.notes.push_back(
         fmt::format("no camera.yaml: assuming depth_scale {:.0f}, which gives a median depth of "
                     "{:.2f} m; if that is wrong, set source.depth_scale",

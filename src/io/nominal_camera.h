@@ -6,6 +6,9 @@
 
 namespace tessera {
 
+// What NominalPinhole assumes, for messages.
+inline constexpr const char* kNominalCamera = "a field of view of 60 degrees";
+
 // A horizontal field of view of 60 degrees and a centred principal point.
 PinholeCamera NominalPinhole(int width, int height);
 

@@ -47,6 +47,8 @@ class OpenniSource : public FrameSource {
         info_.name = name;
         info_.kind = is_recording ? ".oni recording" : about_.name + " (OpenNI2 camera)";
         info_.camera = about_.calibration.pinhole;
+        info_.camera_known = about_.camera_known;
+        info_.camera_from = about_.camera_from;
         info_.one_camera = !about_.calibration.colour;
         info_.rectified = rectifier_.active();
         info_.lens_corrected = rectifier_.corrects_lens();

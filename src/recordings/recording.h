@@ -31,7 +31,8 @@ struct RecordingInfo {
     // colour, though perhaps at another image size.
     Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();
     bool camera_known = true;  // false: the cameras are a guess, and a note says so
-    bool has_colour = true;    // false: no pair has a colour image
+    std::string camera_from = "the recording";  // as in SourceInfo
+    bool has_colour = true;                     // false: no pair has a colour image
     double fps = 30;
     std::vector<RecordedPair> pairs;           // depth stamps increase
     std::vector<std::string> notes, warnings;  // as in SourceInfo

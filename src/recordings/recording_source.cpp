@@ -71,6 +71,7 @@ Status TakeCamera(const std::string& file, RecordingInfo& info) {
         info.colour_camera.pinhole = ScaledTo(camera.pinhole, colour.width, colour.height);
     }
     info.camera_known = true;
+    info.camera_from = "camera.yaml";
     std::erase_if(info.notes, [](const std::string& note) {
         return note.find(kNoCameraInfo) != std::string::npos;
     });
@@ -90,6 +91,7 @@ class RecordingSource : public FrameSource {
         info_.kind = recorded_.kind;
         info_.camera = recorded_.depth_camera.pinhole;
         info_.camera_known = recorded_.camera_known;
+        info_.camera_from = recorded_.camera_from;
         info_.one_camera = HasOneCamera(recorded_);
         info_.frame_count = std::ssize(recorded_.pairs);
         info_.fps = recorded_.fps;

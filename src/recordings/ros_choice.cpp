@@ -59,9 +59,9 @@ CameraCalibration CalibrationOf(const RosContents& contents, const RosStream& st
     const RosCamera* camera = RosCameraOf(contents, stream);
     if (camera == nullptr) {
         info.camera_known = false;
-        info.notes.push_back(
-            fmt::format("{}: {}, or only zeros in it: assuming a field of view of 60 degrees",
-                        stream.topic, kNoCameraInfo));
+        info.camera_from = kNominalCamera;
+        info.notes.push_back(fmt::format("{}: {}, or only zeros in it: assuming {}", stream.topic,
+                                         kNoCameraInfo, kNominalCamera));
         calibration.pinhole = NominalPinhole(stream.width, stream.height);
     } else if (stream.topic.find("rect") != std::string::npos) {
         calibration.pinhole = camera->rectified;

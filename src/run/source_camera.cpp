@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "recordings/open_recording.h"
 #include "run/first_seconds.h"
 #include "run/open_source.h"
 #include "scan/scan_content.h"
@@ -45,31 +44,29 @@ std::optional<PinholeCamera> CameraOfScan(const std::string& path, const Pinhole
 // OpenNI registers and pairs its images by itself.
 bool IsOni(const std::string& name) { return name.ends_with(".oni"); }
 
-std::string GivenBy(const std::string& name) {
-    if (IsOni(name)) return "the device";
-    return IsRecording(name) ? "the recording" : "camera.yaml";
-}
-
 void Describe(const SourceInfo& given, const std::optional<CameraReport>& report,
               std::vector<std::string>& messages) {
     const std::string assumed =
-        fmt::format("assuming a field of view of 60 degrees, fx {:.1f}", given.camera.fx);
+        fmt::format("assuming {}, fx {:.1f}", given.camera_from, given.camera.fx);
+    const bool oni = IsOni(given.name);
+    const char* none = oni ? "the device says no focal length" : "no camera.yaml";
     if (!report) {
         if (!given.camera_known)
             messages.push_back(
-                "no camera.yaml, and the focal length cannot be estimated from this recording: " +
-                assumed);
+                fmt::format("{}, and the focal length cannot be estimated from this recording: {}",
+                            none, assumed));
         return;
     }
     const CameraEstimate& e = report->estimate;
     if (!given.camera_known)
-        messages.push_back(
-            fmt::format("no camera.yaml: the estimate from this recording is fx {:.1f} +- {:.1f}{}",
-                        e.found.fx, e.focal_sigma_px,
-                        report->used ? ", which is used; add a camera.yaml if you know better"
-                                     : ", which is too uncertain: " + assumed));
+        messages.push_back(fmt::format(
+            "{}: the estimate from this recording is fx {:.1f} +- {:.1f}{}", none, e.found.fx,
+            e.focal_sigma_px,
+            report->used ? fmt::format(", which is used; {} if you know better",
+                                       oni ? "set source.openni.fx and fy" : "add a camera.yaml")
+                         : ", which is too uncertain: " + assumed));
     else if (report->used)
-        messages.push_back(EstimateText(e, GivenBy(given.name)) + "; the estimate is used");
+        messages.push_back(EstimateText(e, given.camera_from) + "; the estimate is used");
 }
 
 // Opens the source as the run will, and once more if its depth has errors that can be taken away.
@@ -186,7 +183,7 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
         if (camera)
             checked.messages.push_back(
                 fmt::format("{} says fx {:.1f}, but the scan was made with {:.1f}, which is used",
-                            GivenBy(given.name), given.camera.fx, camera->fx));
+                            given.camera_from, given.camera.fx, camera->fx));
     } else if (given.one_camera) {
         Result<std::optional<PinholeCamera>> found =
             FindCamera(request, corrected, given, seen.camera, checked.found.camera);

@@ -158,12 +158,14 @@ TEST(RecordingSource, ACameraFileCountsWhereTheRecordingHasNoCamera) {
     ASSERT_TRUE(source.ok()) << source.message();
     EXPECT_EQ(source.value()->info().camera, (PinholeCamera{32, 24, 41, 42, 16, 12}));
     EXPECT_TRUE(source.value()->info().camera_known);
+    EXPECT_EQ(source.value()->info().camera_from, "camera.yaml");
     EXPECT_EQ(source.value()->info().notes,
               std::vector<std::string>{"the camera is that of " + file});
     Frame frame;
     ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
     EXPECT_FLOAT_EQ(frame.depth_m(5, 5), 2);
     EXPECT_EQ(open(true).value()->info().camera, kSmallCamera);
+    EXPECT_EQ(open(true).value()->info().camera_from, "the recording");
     std::ofstream(file) << "width: 33\n" << values;
     EXPECT_EQ(open(false).message(), file + ": is for images of 33 x 24, but depth has 32 x 24");
 }
