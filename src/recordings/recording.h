@@ -24,8 +24,10 @@ struct RecordedPair {
 inline constexpr const char* kNoCameraInfo = "no camera_info";
 
 struct RecordingInfo {
-    std::string kind;                 // "ROS 1 bag", "ScanNet recording", ...
-    CameraCalibration depth_camera;   // with depth_scale: stored depth value of one metre
+    std::string kind;                // "ROS 1 bag", "ScanNet recording", ...
+    CameraCalibration depth_camera;  // with depth_scale: stored depth value of one metre
+    // The format has depth in metres: depth_scale is how we store it, and nobody can know better.
+    bool depth_in_m = false;
     CameraCalibration colour_camera;  // its depth_scale is not used
     // From the depth camera's frame to the colour camera's. Identity: depth is registered to
     // colour, though perhaps at another image size.

@@ -31,9 +31,17 @@ bool HasOneCamera(const RecordingInfo& info) {
                    .maxCoeff() <= kSame_px;
 }
 
+// `who` gives the depth unit, which counts unless the format itself has metres.
+void UseDepthScale(double depth_scale, const std::string& who, RecordingInfo& info) {
+    if (info.depth_in_m)
+        info.notes.push_back("depth is recorded in metres: " + who + " is not applied");
+    else
+        info.depth_camera.depth_scale = depth_scale;
+}
+
 // The recording's cameras with what the configuration says.
 RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
-    if (config.depth_scale > 0) info.depth_camera.depth_scale = config.depth_scale;
+    if (config.depth_scale > 0) UseDepthScale(config.depth_scale, "source.depth_scale", info);
     if (config.camera) {
         const bool one_camera = HasOneCamera(info);
         info.depth_camera.pinhole = WithSizeOf(info.depth_camera.pinhole, *config.camera);
@@ -57,8 +65,7 @@ Status TakeCamera(const std::string& file, RecordingInfo& info) {
         return Status::Error(fmt::format("{}: is for images of {} x {}, but depth has {} x {}",
                                          file, camera.pinhole.width, camera.pinhole.height,
                                          depth.width, depth.height));
-    const double depth_scale =
-        camera.depth_scale_given ? camera.depth_scale : info.depth_camera.depth_scale;
+    const double depth_scale = info.depth_camera.depth_scale;
     info.depth_camera = info.colour_camera = camera;
     info.depth_camera.depth_scale = depth_scale;
     info.depth_camera.colour = info.colour_camera.colour = std::nullopt;
@@ -76,6 +83,7 @@ Status TakeCamera(const std::string& file, RecordingInfo& info) {
         return note.find(kNoCameraInfo) != std::string::npos;
     });
     info.notes.push_back("the camera is that of " + file);
+    if (camera.depth_scale_given) UseDepthScale(camera.depth_scale, "its depth_scale", info);
     return {};
 }
 

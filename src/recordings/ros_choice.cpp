@@ -162,6 +162,7 @@ Result<RosChoice> ChooseRosStreams(const RosContents& contents, const RosTopics&
 
 void FindRosCameras(const RosContents& contents, const RosChoice& choice, RecordingInfo& info) {
     info.depth_camera = CalibrationOf(contents, *choice.depth, info);
+    info.depth_in_m = choice.depth->depth_in_m;
     NoteUnused(contents, choice, info);
     if (choice.colour == nullptr) {
         info.colour_camera = info.depth_camera;
