@@ -130,7 +130,8 @@ Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
         case Layout::kSevenScenes: return ReadSevenScenesNames(folder.string(), fps);
         case Layout::kNamedImages: break;
     }
-    return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s);
+    return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s,
+                      colour_delay_s);
 }
 
 // Such names alone say little: other people have living rooms, too.
