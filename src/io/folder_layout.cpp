@@ -88,14 +88,14 @@ std::string PublishedName(const fs::path& folder, const std::string& by_layout) 
 // nullopt if the camera is unknown.
 Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
                                                     const std::string& published,
-                                                    FolderLayout& layout) {
+                                                    bool depth_scale_set, FolderLayout& layout) {
     std::vector<std::string>& notes = layout.notes;
     const fs::path file = folder / "camera.yaml";
     if (Exists(file)) {
         const Result<CameraCalibration> read = ReadCameraFile(file.string());
         if (!read.ok()) return read.status();
         layout.camera_from = "camera.yaml";
-        if (!read.value().depth_scale_given)
+        if (!read.value().depth_scale_given && !depth_scale_set)
             notes.push_back(fmt::format(
                 "camera.yaml has no depth_scale: assuming {} stored units per metre; correct it if "
                 "depths come out too long or too short",
@@ -195,7 +195,7 @@ std::string Characterise(const fs::path& folder, Layout layout, FolderLayout& re
 }  // namespace
 
 Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_gap_s,
-                                      double colour_delay_s) {
+                                      double colour_delay_s, bool depth_scale_set) {
     if (Status status = CheckFolder(path); !status.ok()) return status;
     const fs::path folder(path);
     const Result<Layout> layout = RecogniseLayout(folder);
@@ -203,7 +203,7 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
 
     FolderLayout result;
     const std::string published = Characterise(folder, layout.value(), result);
-    const auto calibration = FindCamera(folder, published, result);
+    const auto calibration = FindCamera(folder, published, depth_scale_set, result);
     if (!calibration.ok()) return calibration.status();
     result.camera_known = calibration.value().has_value();
     result.calibration = calibration.value().value_or(CameraCalibration());

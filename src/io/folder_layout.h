@@ -54,8 +54,9 @@ inline constexpr const char* kUnknownLayout = "not a known sequence layout";
 // groundtruth.txt, or the layout's own. Unusable ground truth is reported in the notes. So are
 // files that the lists name but that are missing; if all are missing, that is an error. Time stamps
 // are corrected by `colour_delay_s` (frame.h) before images are paired, unless they are frame
-// numbers.
+// numbers. `depth_scale_set`: the user has set the depth unit, so that no note says what is
+// assumed.
 Result<FolderLayout> ReadFolderLayout(const std::string& folder, double max_pair_gap_s,
-                                      double colour_delay_s = 0);
+                                      double colour_delay_s = 0, bool depth_scale_set = false);
 
 }  // namespace tessera

@@ -163,11 +163,13 @@ CameraCalibration Configured(CameraCalibration calibration, const FolderSourceCo
 Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
                                                       const FolderSourceConfig& config) {
     if (Status status = config.Validate(); !status.ok()) return status;
+    const bool depth_scale_set = config.depth_scale > 0;
     Result<FolderLayout> layout =
-        ReadFolderLayout(path, config.max_pair_gap_s, config.colour_delay_s);
+        ReadFolderLayout(path, config.max_pair_gap_s, config.colour_delay_s, depth_scale_set);
     if (!layout.ok()) return layout.status();
     if (!layout.value().camera_known)
-        if (Status status = AssumeCamera(layout.value()); !status.ok()) return status;
+        if (Status status = AssumeCamera(layout.value(), depth_scale_set); !status.ok())
+            return status;
     layout.value().calibration = Configured(layout.value().calibration, config);
     auto source = std::make_unique<FolderSource>(path, std::move(layout.value()), config);
     if (Status status = source->Probe(); !status.ok()) return status;
