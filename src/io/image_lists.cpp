@@ -125,7 +125,7 @@ bool NamesDepth(std::string_view name) {
 std::optional<double> StampOfDigits_s(std::string_view digits) {
     constexpr std::size_t kSecondsDigits = 10;  // from 2001 to 2286
     if ((digits.size() != 13 && digits.size() != 16 && digits.size() != 19) ||
-        digits.find_first_not_of("0123456789") != std::string_view::npos)
+        digits.front() == '0' || digits.find_first_not_of("0123456789") != std::string_view::npos)
         return std::nullopt;
     std::string decimal(digits);
     decimal.insert(kSecondsDigits, 1, '.');
