@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-class FolderSource : public FrameSource {
+class FolderSource : public ListedSource {
   public:
     FolderSource(const std::string& path, FolderLayout layout, const FolderSourceConfig& config)
         : layout_(std::move(layout)),
@@ -36,11 +36,9 @@ class FolderSource : public FrameSource {
             info_.notes.push_back("lens distortion is not corrected, as configured");
     }
 
-    const SourceInfo& info() const override { return info_; }
-
     ReadResult Read(Frame& frame) override {
-        if (next_ >= layout_.frames.size()) return {ReadStatus::kEnd, {}};
-        const std::size_t index = next_++;
+        if (next_ >= info_.frame_count) return {ReadStatus::kEnd, {}};
+        const auto index = static_cast<std::size_t>(next_++);
         const FolderFrame& listed = layout_.frames[index];
         if (Status status = Decode(listed); !status.ok())
             return {ReadStatus::kSkip, status.message()};
@@ -51,12 +49,6 @@ class FolderSource : public FrameSource {
         frame.T_world_camera = listed.T_world_camera;
         rectifier_.Fill(depth_, colour_, frame);
         return {};
-    }
-
-    bool Seek(std::int64_t index) override {
-        if (index < 0 || index > info_.frame_count) return false;
-        next_ = static_cast<std::size_t>(index);
-        return true;
     }
 
     std::vector<double> Stamps_s() const override {
@@ -109,11 +101,9 @@ class FolderSource : public FrameSource {
 
     FolderLayout layout_;
     Rectifier rectifier_;
-    SourceInfo info_;
     ImageDecoder decoder_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
-    std::size_t next_ = 0;
 };
 
 }  // namespace

@@ -79,6 +79,22 @@ class FrameSource {
     virtual Status RecordTo(const std::string& path, bool lossless_colour);
 };
 
+// A source that knows all its frames beforehand. Subclasses set info_ with its frame_count, and
+// Read goes on at next_.
+class ListedSource : public FrameSource {
+  public:
+    const SourceInfo& info() const final { return info_; }
+    bool Seek(std::int64_t index) final {
+        if (index < 0 || index > info_.frame_count) return false;
+        next_ = index;
+        return true;
+    }
+
+  protected:
+    SourceInfo info_;
+    std::int64_t next_ = 0;
+};
+
 // The part of a source to read.
 struct FrameSelection {
     std::int64_t start = 0;   // first frame

@@ -38,7 +38,7 @@ Result<CameraCalibration> FindKlgCamera(const std::string& path, SourceInfo& inf
     return calibration;
 }
 
-class KlgSource : public FrameSource {
+class KlgSource : public ListedSource {
   public:
     KlgSource(InputFile file, KlgIndex index, SourceInfo info, const CameraCalibration& calibration,
               const FolderSourceConfig& config)
@@ -46,8 +46,8 @@ class KlgSource : public FrameSource {
           file_(std::move(file)),
           entries_(std::move(index.entries)),
           decoder_(calibration, {config.rectify, config.swap_red_blue}),
-          correction_(StampCorrection::Of(config.colour_delay_s, true)),
-          info_(std::move(info)) {
+          correction_(StampCorrection::Of(config.colour_delay_s, true)) {
+        info_ = std::move(info);
         info_.name = path_;
         info_.kind = ".klg log";
         info_.camera = calibration.pinhole;
@@ -62,11 +62,9 @@ class KlgSource : public FrameSource {
         info_.warnings = std::move(index.warnings);
     }
 
-    const SourceInfo& info() const override { return info_; }
-
     ReadResult Read(Frame& frame) override {
-        if (next_ >= entries_.size()) return {ReadStatus::kEnd, {}};
-        const std::size_t index = next_++;
+        if (next_ >= info_.frame_count) return {ReadStatus::kEnd, {}};
+        const auto index = static_cast<std::size_t>(next_++);
         Status status = Load(entries_[index]);
         if (status.ok()) status = decoder_.Decode(bytes_, DepthBytes(index), frame);
         if (!status.ok())
@@ -79,12 +77,6 @@ class KlgSource : public FrameSource {
         frame.correction = correction_;
         frame.T_world_camera.reset();
         return {};
-    }
-
-    bool Seek(std::int64_t index) override {
-        if (index < 0 || index > info_.frame_count) return false;
-        next_ = static_cast<std::size_t>(index);
-        return true;
     }
 
     std::vector<double> Stamps_s() const override {
@@ -115,9 +107,7 @@ class KlgSource : public FrameSource {
     std::vector<KlgEntry> entries_;
     KlgFrameDecoder decoder_;
     const StampCorrection correction_;
-    SourceInfo info_;
     std::vector<std::uint8_t> bytes_;
-    std::size_t next_ = 0;
 };
 
 }  // namespace

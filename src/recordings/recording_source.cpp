@@ -87,7 +87,7 @@ Status TakeCamera(const std::string& file, RecordingInfo& info) {
     return {};
 }
 
-class RecordingSource : public FrameSource {
+class RecordingSource : public ListedSource {
   public:
     RecordingSource(const std::string& path, std::unique_ptr<Recording> recording,
                     RecordingInfo info, const CameraCalibration& calibration, double colour_delay_s)
@@ -111,8 +111,6 @@ class RecordingSource : public FrameSource {
         info_.warnings = recorded_.warnings;
     }
 
-    const SourceInfo& info() const override { return info_; }
-
     ReadResult Read(Frame& frame) override {
         if (next_ >= info_.frame_count) return {ReadStatus::kEnd, {}};
         const std::int64_t index = next_++;
@@ -127,12 +125,6 @@ class RecordingSource : public FrameSource {
         frame.correction = correction_;
         frame.T_world_camera.reset();
         return {};
-    }
-
-    bool Seek(std::int64_t index) override {
-        if (index < 0 || index > info_.frame_count) return false;
-        next_ = index;
-        return true;
     }
 
     std::vector<double> Stamps_s() const override {
@@ -177,10 +169,8 @@ class RecordingSource : public FrameSource {
     const RecordingInfo recorded_;
     Rectifier rectifier_;
     const StampCorrection correction_;
-    SourceInfo info_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
-    std::int64_t next_ = 0;
 };
 
 }  // namespace
