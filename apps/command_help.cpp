@@ -1,11 +1,10 @@
 // tessera help: the help of a command; and, for packages, a manual page and a completion made from
 // the same texts.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "command.h"
+#include "core/words.h"
 
 namespace tessera {
 namespace {
@@ -100,21 +99,6 @@ int Help(const CLI::App& app, const HelpArguments& a) {
     return kExitDone;
 }
 
-// Insertions, deletions and changes that turn one word into the other.
-std::size_t Edits(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
-        }
-    }
-    return row.back();
-}
-
 }  // namespace
 
 Status UnknownCommand(const CLI::App& app, const std::string& word) {
@@ -122,7 +106,7 @@ Status UnknownCommand(const CLI::App& app, const std::string& word) {
     std::string nearest;
     std::size_t least = kMostEdits + 1;
     for (const CLI::App* command : CommandsOf(app))
-        if (const std::size_t edits = Edits(word, command->get_name()); edits < least) {
+        if (const std::size_t edits = EditDistance(word, command->get_name()); edits < least) {
             nearest = command->get_name();
             least = edits;
         }

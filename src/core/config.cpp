@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "core/words.h"
+
 namespace tessera {
 namespace {
 
@@ -38,21 +40,6 @@ Status SetNumber(const std::string& key, Number& value, ConfigParameters::Range 
             fmt::format("{}: {} is out of range (allowed: {})", key, text, allowed));
     value = *number;
     return Status::Ok();
-}
-
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-        }
-    }
-    return row[b.size()];
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // plain value, freely copyable.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,6 +32,13 @@ class [[nodiscard]] Status {
     bool failed_ = false;
     std::string message_;
 };
+
+// The first that is an error; Ok if none is.
+inline Status FirstError(std::initializer_list<Status> statuses) {
+    for (const Status& status : statuses)
+        if (!status.ok()) return status;
+    return Status::Ok();
+}
 
 // A value of type T, or the error that prevented it.
 template <class T>

@@ -78,6 +78,19 @@ void AtomicFile::Close() {
 }
 
 void AtomicFile::Write(std::string_view bytes) {
+    constexpr std::size_t kMostWaiting = std::size_t{64} << 10;
+    if (!status_.ok()) return;
+    if (waiting_.size() + bytes.size() > kMostWaiting) {
+        WriteOut(waiting_);
+        waiting_.clear();
+    }
+    if (bytes.size() > kMostWaiting)
+        WriteOut(bytes);
+    else
+        waiting_ += bytes;
+}
+
+void AtomicFile::WriteOut(std::string_view bytes) {
     while (status_.ok() && !bytes.empty()) {
         const ssize_t written = write(file_, bytes.data(), bytes.size());
         if (written < 0) {
@@ -89,6 +102,8 @@ void AtomicFile::Write(std::string_view bytes) {
 }
 
 Status AtomicFile::Commit(Sync sync) {
+    WriteOut(waiting_);
+    waiting_.clear();
     // Pipes and some devices do not support fsync; that is not an error.
     if (status_.ok() && sync == Sync::kNow && fsync(file_) != 0 && errno != EINVAL &&
         errno != EROFS)

@@ -26,8 +26,8 @@ void SyncFolderOf(const std::string& path);
 // Creates the folder (and its parents) and checks that it is writable.
 Status PrepareOutputFolder(const std::string& path);
 
-// Like WriteTextFile, but in pieces: nothing appears at `path` before Commit succeeds. Owner thread
-// only.
+// Like WriteTextFile, but in pieces, which may be small: nothing appears at `path` before Commit
+// succeeds. Owner thread only.
 class AtomicFile {
   public:
     explicit AtomicFile(const std::string& path);
@@ -43,12 +43,14 @@ class AtomicFile {
     Status Commit(Sync sync = Sync::kNow);
 
   private:
+    void WriteOut(std::string_view bytes);
     void Fail(const char* what);
     void Close();
 
     std::string path_;       // as the user gave it, for messages
     std::string target_;     // with symbolic links resolved
     std::string temporary_;  // empty if written in place
+    std::string waiting_;    // small pieces that are not in the file yet
     int file_ = -1;
     Status status_;
 };

@@ -88,12 +88,14 @@ std::string PublishedName(const fs::path& folder, const std::string& by_layout) 
 // nullopt if the camera is unknown.
 Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
                                                     const std::string& published,
-                                                    std::vector<std::string>& notes) {
+                                                    bool depth_scale_set, FolderLayout& layout) {
+    std::vector<std::string>& notes = layout.notes;
     const fs::path file = folder / "camera.yaml";
     if (Exists(file)) {
         const Result<CameraCalibration> read = ReadCameraFile(file.string());
         if (!read.ok()) return read.status();
-        if (!read.value().depth_scale_given)
+        layout.camera_from = "camera.yaml";
+        if (!read.value().depth_scale_given && !depth_scale_set)
             notes.push_back(fmt::format(
                 "camera.yaml has no depth_scale: assuming {} stored units per metre; correct it if "
                 "depths come out too long or too short",
@@ -103,16 +105,18 @@ Result<std::optional<CameraCalibration>> FindCamera(const fs::path& folder,
     const auto open3d = ReadOpen3dCamera(folder.string());
     if (!open3d.ok()) return open3d.status();
     if (open3d.value()) {
+        layout.camera_from = open3d.value()->file;
         notes.push_back(fmt::format("camera from {}, depth in millimetres", open3d.value()->file));
         return std::optional(open3d.value()->calibration);
     }
     const std::string name = PublishedName(folder, published);
     std::optional<CameraCalibration> camera = PublishedCamera(name);
-    if (camera)
+    if (camera) {
+        layout.camera_from = "the published calibration of " + name;
         notes.push_back(
-            fmt::format("no camera.yaml: using the published calibration of {}; add a camera.yaml "
-                        "if this is a different camera",
-                        name));
+            fmt::format("no camera.yaml: using {}; add a camera.yaml if this is a different camera",
+                        layout.camera_from));
+    }
     return camera;
 }
 
@@ -126,7 +130,8 @@ Result<ImagePairs> ReadPairs(const fs::path& folder, Layout layout, double fps,
         case Layout::kSevenScenes: return ReadSevenScenesNames(folder.string(), fps);
         case Layout::kNamedImages: break;
     }
-    return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s);
+    return PairByName(folder.string(), FindImageFolders(folder.string()), fps, max_pair_gap_s,
+                      colour_delay_s);
 }
 
 // Such names alone say little: other people have living rooms, too.
@@ -190,7 +195,7 @@ std::string Characterise(const fs::path& folder, Layout layout, FolderLayout& re
 }  // namespace
 
 Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_gap_s,
-                                      double colour_delay_s) {
+                                      double colour_delay_s, bool depth_scale_set) {
     if (Status status = CheckFolder(path); !status.ok()) return status;
     const fs::path folder(path);
     const Result<Layout> layout = RecogniseLayout(folder);
@@ -198,7 +203,7 @@ Result<FolderLayout> ReadFolderLayout(const std::string& path, double max_pair_g
 
     FolderLayout result;
     const std::string published = Characterise(folder, layout.value(), result);
-    const auto calibration = FindCamera(folder, published, result.notes);
+    const auto calibration = FindCamera(folder, published, depth_scale_set, result);
     if (!calibration.ok()) return calibration.status();
     result.camera_known = calibration.value().has_value();
     result.calibration = calibration.value().value_or(CameraCalibration());

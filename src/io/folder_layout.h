@@ -24,6 +24,7 @@ struct FolderLayout {
     CameraCalibration calibration;
     // False if the camera is unknown. The calibration then holds nothing but its frame rate.
     bool camera_known = true;
+    std::string camera_from;          // as in SourceInfo; "": unknown
     bool registration_known = true;   // false: the colour camera's place is another device's
     std::uint16_t invalid_depth = 0;  // a stored value that means "no measurement", besides 0
     StampCorrection correction;       // already in the frames' stamps
@@ -53,8 +54,9 @@ inline constexpr const char* kUnknownLayout = "not a known sequence layout";
 // groundtruth.txt, or the layout's own. Unusable ground truth is reported in the notes. So are
 // files that the lists name but that are missing; if all are missing, that is an error. Time stamps
 // are corrected by `colour_delay_s` (frame.h) before images are paired, unless they are frame
-// numbers.
+// numbers. `depth_scale_set`: the user has set the depth unit, so that no note says what is
+// assumed.
 Result<FolderLayout> ReadFolderLayout(const std::string& folder, double max_pair_gap_s,
-                                      double colour_delay_s = 0);
+                                      double colour_delay_s = 0, bool depth_scale_set = false);
 
 }  // namespace tessera

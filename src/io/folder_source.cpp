@@ -10,7 +10,7 @@
 namespace tessera {
 namespace {
 
-class FolderSource : public FrameSource {
+class FolderSource : public ListedSource {
   public:
     FolderSource(const std::string& path, FolderLayout layout, const FolderSourceConfig& config)
         : layout_(std::move(layout)),
@@ -19,6 +19,7 @@ class FolderSource : public FrameSource {
         info_.kind = layout_.kind;
         info_.camera = layout_.calibration.pinhole;
         info_.camera_known = layout_.camera_known;
+        info_.camera_from = layout_.camera_from;
         info_.registration_known = layout_.registration_known;
         info_.one_camera = !layout_.calibration.colour;
         info_.frame_count = static_cast<std::int64_t>(layout_.frames.size());
@@ -35,11 +36,9 @@ class FolderSource : public FrameSource {
             info_.notes.push_back("lens distortion is not corrected, as configured");
     }
 
-    const SourceInfo& info() const override { return info_; }
-
     ReadResult Read(Frame& frame) override {
-        if (next_ >= layout_.frames.size()) return {ReadStatus::kEnd, {}};
-        const std::size_t index = next_++;
+        if (next_ >= info_.frame_count) return {ReadStatus::kEnd, {}};
+        const auto index = static_cast<std::size_t>(next_++);
         const FolderFrame& listed = layout_.frames[index];
         if (Status status = Decode(listed); !status.ok())
             return {ReadStatus::kSkip, status.message()};
@@ -50,12 +49,6 @@ class FolderSource : public FrameSource {
         frame.T_world_camera = listed.T_world_camera;
         rectifier_.Fill(depth_, colour_, frame);
         return {};
-    }
-
-    bool Seek(std::int64_t index) override {
-        if (index < 0 || index > info_.frame_count) return false;
-        next_ = static_cast<std::size_t>(index);
-        return true;
     }
 
     std::vector<double> Stamps_s() const override {
@@ -108,11 +101,9 @@ class FolderSource : public FrameSource {
 
     FolderLayout layout_;
     Rectifier rectifier_;
-    SourceInfo info_;
     ImageDecoder decoder_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
-    std::size_t next_ = 0;
 };
 
 }  // namespace
@@ -162,11 +153,13 @@ CameraCalibration Configured(CameraCalibration calibration, const FolderSourceCo
 Result<std::unique_ptr<FrameSource>> OpenFolderSource(const std::string& path,
                                                       const FolderSourceConfig& config) {
     if (Status status = config.Validate(); !status.ok()) return status;
+    const bool depth_scale_set = config.depth_scale > 0;
     Result<FolderLayout> layout =
-        ReadFolderLayout(path, config.max_pair_gap_s, config.colour_delay_s);
+        ReadFolderLayout(path, config.max_pair_gap_s, config.colour_delay_s, depth_scale_set);
     if (!layout.ok()) return layout.status();
     if (!layout.value().camera_known)
-        if (Status status = AssumeCamera(layout.value()); !status.ok()) return status;
+        if (Status status = AssumeCamera(layout.value(), depth_scale_set); !status.ok())
+            return status;
     layout.value().calibration = Configured(layout.value().calibration, config);
     auto source = std::make_unique<FolderSource>(path, std::move(layout.value()), config);
     if (Status status = source->Probe(); !status.ok()) return status;

@@ -34,6 +34,7 @@ struct FolderSourceConfig {
     // configuration key.
     DepthDistortion depth_distortion = {};
 
+    bool operator==(const FolderSourceConfig&) const = default;
     void Describe(ConfigParameters& parameters);
     Status Validate() const;
 };

@@ -12,15 +12,6 @@
 #include "io/trajectory.h"
 
 namespace tessera {
-namespace {
-
-Status FirstError(std::initializer_list<Status> statuses) {
-    for (const Status& status : statuses)
-        if (!status.ok()) return status;
-    return Status::Ok();
-}
-
-}  // namespace
 
 void RecordConfig::Describe(ConfigParameters& p) {
     p.AddChoice("colour", colour, {{"jpeg", Colour::kJpeg}, {"png", Colour::kPng}},

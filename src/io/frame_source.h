@@ -34,6 +34,8 @@ struct SourceInfo {
     std::string kind;          // "TUM folder", "synthetic scene", ...
     PinholeCamera camera;      // camera model of the delivered frames (after rectification)
     bool camera_known = true;  // false: camera unknown, `camera` is a guess
+    // Where `camera` is from, or what the guess is: "camera.yaml", "the device", ...
+    std::string camera_from = "the source";
     // False: depth and colour come from two cameras, and were brought into register by their known
     // calibration. One estimate for both would be wrong.
     bool one_camera = true;
@@ -75,6 +77,22 @@ class FrameSource {
     // JPEG, a tenth of the size; depth is always exact. Only OpenNI2 cameras support this. Others
     // return an error that says what to do (a FrameRecorder records any source).
     virtual Status RecordTo(const std::string& path, bool lossless_colour);
+};
+
+// A source that knows all its frames beforehand. Subclasses set info_ with its frame_count, and
+// Read goes on at next_.
+class ListedSource : public FrameSource {
+  public:
+    const SourceInfo& info() const final { return info_; }
+    bool Seek(std::int64_t index) final {
+        if (index < 0 || index > info_.frame_count) return false;
+        next_ = index;
+        return true;
+    }
+
+  protected:
+    SourceInfo info_;
+    std::int64_t next_ = 0;
 };
 
 // The part of a source to read.

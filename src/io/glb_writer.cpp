@@ -1,6 +1,5 @@
 // Binary glTF 2.0: a header, a chunk of JSON and a chunk of bytes
 // (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html, section 4).
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -24,14 +23,13 @@ constexpr std::uint32_t kGlbMagic = 0x46546c67, kVersion = 2, kJsonChunk = 0x4e4
                         kBinaryChunk = 0x004e4942;
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayBuffer = 34962,
               kElementBuffer = 34963, kLinear = 9729;
-constexpr std::size_t kColoursAtOnce = 1 << 17;
 
 // With alpha, so that each element is aligned to four bytes.
 using Colour16 = std::array<std::uint16_t, 4>;
 
 template <class T>
-std::string_view BytesOf(const std::vector<T>& values, std::size_t count) {
-    return {reinterpret_cast<const char*>(values.data()), count * sizeof(T)};
+std::string_view BytesOf(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
 // IEC 61966-2-1, in steps of 1 / 65535.
@@ -156,32 +154,27 @@ std::string Json(const GlbContent& content, std::size_t& binary_bytes) {
 void WriteNumbers(AtomicFile& file, std::initializer_list<std::size_t> numbers) {
     std::vector<std::uint32_t> words;
     for (const std::size_t number : numbers) words.push_back(static_cast<std::uint32_t>(number));
-    file.Write(BytesOf(words, words.size()));
+    file.Write(BytesOf(words));
 }
 
 void WriteColours(AtomicFile& file, const std::vector<Rgb8>& colours) {
     const std::array<std::uint16_t, 256> linear = LinearOfSrgb();
-    std::vector<Colour16> piece;
-    piece.reserve(std::min(colours.size(), kColoursAtOnce));
-    for (std::size_t i = 0; i < colours.size(); ++i) {
-        const Rgb8& c = colours[i];
-        piece.push_back({linear[c.r], linear[c.g], linear[c.b], 65535});
-        if (piece.size() < kColoursAtOnce && i + 1 < colours.size()) continue;
-        file.Write(BytesOf(piece, piece.size()));
-        piece.clear();
+    for (const Rgb8& c : colours) {
+        const Colour16 colour{linear[c.r], linear[c.g], linear[c.b], 65535};
+        file.Write({reinterpret_cast<const char*>(&colour), sizeof(colour)});
     }
 }
 
 void WriteArrays(AtomicFile& file, const GlbContent& content) {
     const TriangleMesh& mesh = content.mesh;
-    file.Write(BytesOf(mesh.vertices, mesh.vertices.size()));
-    file.Write(BytesOf(mesh.normals, mesh.normals.size()));
+    file.Write(BytesOf(mesh.vertices));
+    file.Write(BytesOf(mesh.normals));
     if (content.textured())
-        file.Write(BytesOf(*content.uv, content.uv->size()));
+        file.Write(BytesOf(*content.uv));
     else
         WriteColours(file, mesh.colours);
-    file.Write(BytesOf(mesh.triangles, mesh.triangles.size()));
-    file.Write(BytesOf(content.jpeg, content.jpeg.size()));
+    file.Write(BytesOf(mesh.triangles));
+    file.Write(BytesOf(content.jpeg));
     file.Write(std::string(content.padding(), '\0'));
 }
 

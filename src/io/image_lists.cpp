@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/input_file.h"
+#include "core/words.h"
 #include "io/stamp_pairing.h"
 
 namespace tessera {
@@ -20,18 +21,6 @@ struct ListedImage {
     double stamp_s;
     std::string name;
 };
-
-std::vector<std::string_view> SplitWords(std::string_view line) {
-    constexpr std::string_view kSeparators = " \t\r,";
-    std::vector<std::string_view> words;
-    while (true) {
-        const std::size_t begin = line.find_first_not_of(kSeparators);
-        if (begin == std::string_view::npos) return words;
-        line.remove_prefix(begin);
-        words.push_back(line.substr(0, line.find_first_of(kSeparators)));
-        line.remove_prefix(words.back().size());
-    }
-}
 
 std::optional<double> ParseStamp(std::string_view word) {
     double stamp_s = 0;
@@ -55,7 +44,7 @@ Status ForEachLine(const std::string& path, const std::string& form,
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         const std::string_view line = rest.substr(0, end);
         rest.remove_prefix(std::min(end + 1, rest.size()));
-        const auto words = SplitWords(line.substr(0, line.find('#')));
+        const auto words = SplitWords(line.substr(0, line.find('#')), " \t\r,");
         if (words.empty()) continue;
         if (use(words)) {
             ++good;
@@ -125,7 +114,7 @@ bool NamesDepth(std::string_view name) {
 std::optional<double> StampOfDigits_s(std::string_view digits) {
     constexpr std::size_t kSecondsDigits = 10;  // from 2001 to 2286
     if ((digits.size() != 13 && digits.size() != 16 && digits.size() != 19) ||
-        digits.find_first_not_of("0123456789") != std::string_view::npos)
+        digits.front() == '0' || digits.find_first_not_of("0123456789") != std::string_view::npos)
         return std::nullopt;
     std::string decimal(digits);
     decimal.insert(kSecondsDigits, 1, '.');

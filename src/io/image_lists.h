@@ -23,7 +23,8 @@ struct ImagePairs {
 };
 
 // A time since 1970 as a whole number of 13, 16 or 19 digits, which are milli-, micro- or
-// nanoseconds: the seconds nearest to it. nullopt for other texts.
+// nanoseconds: the seconds nearest to it. nullopt for other texts, such as a frame's number with
+// zeros before it.
 std::optional<double> StampOfDigits_s(std::string_view digits);
 
 // Reads two lists of lines "stamp filename" ('#' starts a comment; the name may contain blanks) and

@@ -16,16 +16,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std::string>& notes) {
+// Says in `info` where the camera is from.
+Result<CameraCalibration> FindKlgCamera(const std::string& path, SourceInfo& info) {
     const fs::path file = fs::path(path).parent_path() / "camera.yaml";
     std::error_code ignored;
     constexpr double kKlgDepthScale = 1000;
     if (fs::exists(file, ignored)) {
         Result<CameraCalibration> read = ReadCameraFile(file.string());
+        info.camera_from = "camera.yaml";
         if (read.ok() && !read.value().depth_scale_given) read.value().depth_scale = kKlgDepthScale;
         return read;
     }
-    notes.push_back(
+    info.camera_known = false;
+    info.camera_from = "a Kinect's focal length";
+    info.notes.push_back(
         "no camera.yaml next to the log: assuming a focal length of 528 pixels; add a camera.yaml "
         "if this is a different camera");
     CameraCalibration calibration;
@@ -34,15 +38,16 @@ Result<CameraCalibration> FindKlgCamera(const std::string& path, std::vector<std
     return calibration;
 }
 
-class KlgSource : public FrameSource {
+class KlgSource : public ListedSource {
   public:
-    KlgSource(InputFile file, KlgIndex index, std::vector<std::string> notes,
-              const CameraCalibration& calibration, const FolderSourceConfig& config)
+    KlgSource(InputFile file, KlgIndex index, SourceInfo info, const CameraCalibration& calibration,
+              const FolderSourceConfig& config)
         : path_(file.path()),
           file_(std::move(file)),
           entries_(std::move(index.entries)),
           decoder_(calibration, {config.rectify, config.swap_red_blue}),
           correction_(StampCorrection::Of(config.colour_delay_s, true)) {
+        info_ = std::move(info);
         info_.name = path_;
         info_.kind = ".klg log";
         info_.camera = calibration.pinhole;
@@ -54,15 +59,12 @@ class KlgSource : public FrameSource {
         info_.lens_corrected = decoder_.corrects_lens();
         info_.has_colour =
             std::ranges::any_of(entries_, [](const KlgEntry& e) { return e.colour_bytes > 0; });
-        info_.notes = std::move(notes);
         info_.warnings = std::move(index.warnings);
     }
 
-    const SourceInfo& info() const override { return info_; }
-
     ReadResult Read(Frame& frame) override {
-        if (next_ >= entries_.size()) return {ReadStatus::kEnd, {}};
-        const std::size_t index = next_++;
+        if (next_ >= info_.frame_count) return {ReadStatus::kEnd, {}};
+        const auto index = static_cast<std::size_t>(next_++);
         Status status = Load(entries_[index]);
         if (status.ok()) status = decoder_.Decode(bytes_, DepthBytes(index), frame);
         if (!status.ok())
@@ -75,12 +77,6 @@ class KlgSource : public FrameSource {
         frame.correction = correction_;
         frame.T_world_camera.reset();
         return {};
-    }
-
-    bool Seek(std::int64_t index) override {
-        if (index < 0 || index > info_.frame_count) return false;
-        next_ = static_cast<std::size_t>(index);
-        return true;
     }
 
     std::vector<double> Stamps_s() const override {
@@ -111,9 +107,7 @@ class KlgSource : public FrameSource {
     std::vector<KlgEntry> entries_;
     KlgFrameDecoder decoder_;
     const StampCorrection correction_;
-    SourceInfo info_;
     std::vector<std::uint8_t> bytes_;
-    std::size_t next_ = 0;
 };
 
 }  // namespace
@@ -123,8 +117,8 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path,
     if (Status status = config.Validate(); !status.ok()) return status;
     Result<InputFile> file = InputFile::Open(path);
     if (!file.ok()) return file.status();
-    std::vector<std::string> notes;
-    Result<CameraCalibration> calibration = FindKlgCamera(path, notes);
+    SourceInfo info;
+    Result<CameraCalibration> calibration = FindKlgCamera(path, info);
     if (!calibration.ok()) return calibration.status();
     if (Status status = CheckOneSize(calibration.value()); !status.ok())
         return Status::Error(path + ": its camera.yaml: " + status.message());
@@ -132,7 +126,7 @@ Result<std::unique_ptr<FrameSource>> OpenKlgSource(const std::string& path,
     Result<KlgIndex> index = ReadKlgIndex(file.value(), calibration.value().pinhole);
     if (!index.ok()) return index.status();
     auto source = std::make_unique<KlgSource>(std::move(file.value()), std::move(index.value()),
-                                              std::move(notes), calibration.value(), config);
+                                              std::move(info), calibration.value(), config);
     if (Status status = source->Probe(); !status.ok()) return status;
     return std::unique_ptr<FrameSource>(std::move(source));
 }

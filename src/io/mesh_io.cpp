@@ -76,14 +76,12 @@ Eigen::Vector3f ToNormal(const double* n) {
     return (normal / length).cast<float>();
 }
 
-template <class Scalars>
-void SkipProperty(const PlyProperty& property, Scalars& scalars) {
+void SkipProperty(const PlyProperty& property, PlyScalars& scalars) {
     std::uint64_t count = property.is_list ? scalars.ReadCount(property.count_type) : 1;
     scalars.Skip(property.type, count);
 }
 
-template <class Scalars>
-Status ReadVertices(const PlyElement& element, Scalars& scalars, TriangleMesh& mesh) {
+Status ReadVertices(const PlyElement& element, PlyScalars& scalars, TriangleMesh& mesh) {
     std::vector<Slot> slots;
     std::array<bool, kSlots + 1> has{};
     std::array<double, kSlots + 1> scale;
@@ -124,8 +122,7 @@ Status ReadVertices(const PlyElement& element, Scalars& scalars, TriangleMesh& m
 }
 
 // Splits a polygon into a triangle fan around its first corner.
-template <class Scalars>
-void ReadPolygon(const PlyProperty& property, std::uint64_t corners, Scalars& scalars,
+void ReadPolygon(const PlyProperty& property, std::uint64_t corners, PlyScalars& scalars,
                  TriangleMesh& mesh) {
     std::array<std::uint32_t, 3> triangle{};
     for (std::uint64_t i = 0; i < corners && scalars.ok(); ++i) {
@@ -141,8 +138,7 @@ void ReadPolygon(const PlyProperty& property, std::uint64_t corners, Scalars& sc
 
 // A fan needs up to twelve times the polygon's bytes, so polygons have at most as many corners as
 // there are vertices, and the mesh at most 2^31 triangles.
-template <class Scalars>
-Status ReadFaces(const PlyElement& element, std::uint64_t vertices, Scalars& scalars,
+Status ReadFaces(const PlyElement& element, std::uint64_t vertices, PlyScalars& scalars,
                  TriangleMesh& mesh) {
     if (element.count > kMaxIndex) return Status::Error("has more than 2^31 faces");
     mesh.triangles.reserve(element.count);
@@ -165,8 +161,7 @@ Status ReadFaces(const PlyElement& element, std::uint64_t vertices, Scalars& sca
     return Status::Ok();
 }
 
-template <class Scalars>
-Status ReadBody(const PlyHeader& header, Scalars scalars, TriangleMesh& mesh) {
+Status ReadBody(const PlyHeader& header, PlyScalars scalars, TriangleMesh& mesh) {
     bool has_vertices = false;
     std::uint64_t vertices = 0;
     for (const PlyElement& element : header.elements)
@@ -202,10 +197,7 @@ Status ParsePly(std::string_view file, TriangleMesh& mesh) {
     const Result<PlyHeader> header = ParsePlyHeader(file);
     if (!header.ok()) return header.status();
     const std::string_view body = file.substr(header.value().body_offset);
-    if (header.value().format == PlyFormat::kAscii)
-        return ReadBody(header.value(), TextScalars(body), mesh);
-    const bool little = header.value().format == PlyFormat::kLittleEndian;
-    return ReadBody(header.value(), BinaryScalars(body, little), mesh);
+    return ReadBody(header.value(), PlyScalars(body, header.value().format), mesh);
 }
 
 }  // namespace

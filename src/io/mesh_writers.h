@@ -3,16 +3,12 @@
 // never left half overwritten. docs/exports.md lists programs that open each format.
 #pragma once
 
-#include <cstddef>
 #include <string>
 
 #include "core/mesh.h"
 #include "core/status.h"
 
 namespace tessera {
-
-// Size of the pieces in which writers pass data to the file.
-inline constexpr std::size_t kMeshPieceBytes = std::size_t{1} << 20;
 
 // Aborts if a vertex property is neither empty nor one per vertex, which all writers rely on.
 void CheckVertexProperties(const TriangleMesh& mesh);
@@ -32,8 +28,8 @@ Status WriteObj(const std::string& path, const TriangleMesh& mesh);
 // Binary glTF 2.0, metres. Its node rotates the world (x right, y down, z forward) by half a turn
 // about x, so that viewers, which have y up, show it upright. The vertices are not changed. COLOR_0
 // is linear, as the specification requires, in 16 bits, which keeps all 256 sRGB values distinct.
-// Copies no more than a megabyte of colours. Errors, besides write errors: a mesh without
-// triangles, which the format cannot hold, and more than 4 GiB.
+// Errors, besides write errors: a mesh without triangles, which the format cannot hold, and more
+// than 4 GiB.
 Status WriteGlb(const std::string& path, const TriangleMesh& mesh);
 
 // Writes only the vertices, with all their properties, as a binary PLY point cloud.

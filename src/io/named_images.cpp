@@ -73,7 +73,8 @@ std::optional<std::map<Key, std::string>> IndexNames(
 }
 
 ImagePairs PairByStamp(const std::map<double, std::string>& depth,
-                       const std::map<double, std::string>& colour, double max_gap_s) {
+                       const std::map<double, std::string>& colour, double max_gap_s,
+                       double colour_delay_s) {
     const auto unzip = [](const std::map<double, std::string>& images,
                           std::vector<double>& stamps_s, std::vector<std::string>& names) {
         for (const auto& [stamp_s, name] : images) {
@@ -87,7 +88,7 @@ ImagePairs PairByStamp(const std::map<double, std::string>& depth,
     unzip(colour, colour_s, colour_names);
     ImagePairs result;
     for (const StampPair& pair :
-         PairNearest(depth_s, colour_s, PairGap(max_gap_s, depth_s, colour_s)))
+         PairNearest(depth_s, colour_s, PairGap(max_gap_s, depth_s, colour_s), colour_delay_s))
         result.pairs.push_back({depth_s[pair.depth], colour_s[pair.colour], depth_names[pair.depth],
                                 colour_names[pair.colour]});
     return result;
@@ -158,7 +159,7 @@ ImageFolders FindImageFolders(const std::string& folder) {
 }
 
 Result<ImagePairs> PairByName(const std::string& folder, const ImageFolders& folders, double fps,
-                              double max_gap_s) {
+                              double max_gap_s, double colour_delay_s) {
     const std::vector<std::string> depth = ImageNames(fs::path(folder) / folders.depth);
     const std::vector<std::string> colour = ImageNames(fs::path(folder) / folders.colour);
     for (const auto& [name, images] :
@@ -172,7 +173,7 @@ Result<ImagePairs> PairByName(const std::string& folder, const ImageFolders& fol
                colour_numbers = IndexNames(colour, &NumberInName);
     ImagePairs result;
     if (depth_stamps && colour_stamps)
-        result = PairByStamp(*depth_stamps, *colour_stamps, max_gap_s);
+        result = PairByStamp(*depth_stamps, *colour_stamps, max_gap_s, colour_delay_s);
     else if (depth_numbers && colour_numbers)
         result = PairByNumber(*depth_numbers, *colour_numbers, fps);
     else

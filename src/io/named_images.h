@@ -24,8 +24,8 @@ ImageFolders FindImageFolders(const std::string& folder);
 // point, or whole numbers as StampOfDigits_s reads them), pairs by time (PairGap). Otherwise pairs
 // by the last number in the names, with stamps number / fps. If names have no number, pairs in
 // alphabetical order. Unpaired images are reported in the notes; if there are no pairs, that is an
-// error.
+// error. `colour_delay_s`: as for ReadImageLists.
 Result<ImagePairs> PairByName(const std::string& folder, const ImageFolders& folders, double fps,
-                              double max_gap_s);
+                              double max_gap_s, double colour_delay_s = 0);
 
 }  // namespace tessera

@@ -33,7 +33,7 @@ PinholeCamera NominalPinhole(int width, int height) {
     return {width, height, f_px, f_px, 0.5 * (width - 1), 0.5 * (height - 1)};
 }
 
-Status AssumeCamera(FolderLayout& layout) {
+Status AssumeCamera(FolderLayout& layout, bool depth_scale_set) {
     constexpr std::size_t kProbes = 5, kEvery = 7;
     ImageDecoder decoder;
     Image<std::uint16_t> depth;
@@ -58,6 +58,8 @@ Status AssumeCamera(FolderLayout& layout) {
     const double middle = values.empty() ? 0 : Median(values), unit = UnitOf(values, middle);
     layout.calibration.pinhole = camera;
     layout.calibration.depth_scale = unit;
+    layout.camera_from = kNominalCamera;
+    if (depth_scale_set) return Status::Ok();
     layout.notes.push_back(
         fmt::format("no camera.yaml: assuming depth_scale {:.0f}, which gives a median depth of "
                     "{:.2f} m; if that is wrong, set source.depth_scale",

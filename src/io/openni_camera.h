@@ -22,7 +22,9 @@ class OpenniCamera {
         std::string serial;     // number; "": the device does not say
         std::string uri, name;  // of the device, "PrimeSense PS1080"; for recordings, of the file
         PinholeCamera camera;   // as the device describes it
-        CameraCalibration calibration;        // to use; a camera file's, if there is one
+        CameraCalibration calibration;  // to use; a camera file's, if there is one
+        bool camera_known = true;       // as in SourceInfo, for `calibration`
+        std::string camera_from = "the device";
         double fps = 30;                      // of the depth stream
         double shortest_period_s = 1.0 / 30;  // between two images of the same stream
         double depth_units_per_m = 1000;

@@ -82,10 +82,12 @@ PinholeCamera CameraOf(const OpenniStreams& s, const OpenniConfig& config,
     };
     if (!plausible(camera.fx, width) || !plausible(camera.fy, height)) {
         camera.fx = camera.fy = 525.0 / 640 * width;  // close to a Kinect's
-        if (config.fx == 0 || config.fy == 0)
-            about.notes.push_back(
-                "the device reports no usable field of view; using a Kinect's focal length (set "
-                "source.openni.fx and fy)");
+        if (config.fx == 0 || config.fy == 0) {
+            about.camera_known = false;
+            about.camera_from = "a Kinect's focal length";
+            about.notes.push_back("the device reports no usable field of view; using " +
+                                  about.camera_from + " (set source.openni.fx and fy)");
+        }
     }
     return camera;
 }
@@ -123,6 +125,8 @@ Status FindCalibrationOf(const OpenniConfig& config, OpenniCamera::About& about)
     if (!stored.ok()) return stored.status();
     if (stored.value()) {
         about.calibration = stored.value()->calibration;
+        about.camera_known = true;
+        about.camera_from = stored.value()->path;
         if (!about.calibration.depth_scale_given)
             about.calibration.depth_scale = about.depth_units_per_m;
         about.notes.push_back("calibration from " + stored.value()->path);
@@ -133,6 +137,7 @@ Status FindCalibrationOf(const OpenniConfig& config, OpenniCamera::About& about)
                                         {config.cx, &camera.cx},
                                         {config.cy, &camera.cy}})
         if (wanted > 0) *value = wanted;
+    if (config.fx > 0 && config.fy > 0) about.camera_from = "source.openni.fx";
     return {};
 }
 

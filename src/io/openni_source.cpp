@@ -41,11 +41,14 @@ class OpenniSource : public FrameSource {
           rectifier_(about_.calibration, {}),
           pairing_(config.max_pair_gap_s, about_.shortest_period_s),
           clock_(is_recording ? kLargestPause_s : kLargestJump_s),
-          watch_(Now_s()),
+          read_s_(Now_s()),
+          watch_(read_s_),
           prefix_(any_device_ ? "" : name + ": ") {
         info_.name = name;
         info_.kind = is_recording ? ".oni recording" : about_.name + " (OpenNI2 camera)";
         info_.camera = about_.calibration.pinhole;
+        info_.camera_known = about_.camera_known;
+        info_.camera_from = about_.camera_from;
         info_.one_camera = !about_.calibration.colour;
         info_.rectified = rectifier_.active();
         info_.lens_corrected = rectifier_.corrects_lens();
@@ -69,6 +72,14 @@ class OpenniSource : public FrameSource {
     }
 
     ReadResult Read(Frame& frame) override {
+        watch_.NotHeard(Now_s() - read_s_);
+        ReadResult result = ReadNext(frame);
+        read_s_ = Now_s();
+        return result;
+    }
+
+  private:
+    ReadResult ReadNext(Frame& frame) {
         if (drained_) return {ReadStatus::kEnd, {}};
         if (!camera_) return Reconnect();
         for (const double deadline_s = Now_s() + kLongestRead_s;;) {
@@ -91,7 +102,6 @@ class OpenniSource : public FrameSource {
         }
     }
 
-  private:
     bool TakePair(Frame& frame) {
         if (!pairing_.Next(pair_)) return false;
         frame.index = next_index_++;
@@ -209,6 +219,7 @@ class OpenniSource : public FrameSource {
     StreamPairing::Pair pair_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
+    double read_s_;  // when Read returned last
     StreamWatch watch_;
     std::int64_t next_index_ = 0;
     bool ended_ = false, drained_ = false;  // no more images; no more pairs

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/words.h"
+
 namespace tessera {
 namespace {
 
@@ -23,17 +25,6 @@ std::optional<PlyType> ParseType(std::string_view name) {
     for (const auto& [text, type] : kNames)
         if (text == name) return type;
     return std::nullopt;
-}
-
-std::vector<std::string_view> Words(std::string_view line) {
-    std::vector<std::string_view> words;
-    while (true) {
-        const std::size_t begin = line.find_first_not_of(" \t\r");
-        if (begin == std::string_view::npos) return words;
-        line.remove_prefix(begin);
-        words.push_back(line.substr(0, line.find_first_of(" \t\r")));
-        line.remove_prefix(words.back().size());
-    }
 }
 
 Status BadLine(std::string_view line) {
@@ -111,7 +102,7 @@ Result<PlyHeader> ParsePlyHeader(std::string_view file) {
         const std::size_t end = std::min(file.find('\n', begin), file.size());
         const std::string_view line = file.substr(begin, end - begin);
         begin = end + 1;
-        const auto words = Words(line.substr(0, 4096));
+        const auto words = SplitWords(line.substr(0, 4096), " \t\r");
         if (number == 1 && (words.size() != 1 || words[0] != "ply"))
             return Status::Error("is not a PLY file: it does not start with 'ply'");
         if (number == 1 || words.empty() || words[0] == "comment" || words[0] == "obj_info")

@@ -1,6 +1,5 @@
 // Reads the numbers in a PLY file's body one after another, from text or binary. Used by
-// mesh_io.cpp only. After the end of the file or a malformed number, both readers return 0 and ok()
-// is false.
+// mesh_io.cpp only.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +13,19 @@
 
 namespace tessera {
 
-class BinaryScalars {
+// After the end of the file or a malformed number, Read returns 0 and ok() is false.
+class PlyScalars {
   public:
-    BinaryScalars(std::string_view body, bool little_endian)
-        : rest_(body), swap_(little_endian != (std::endian::native == std::endian::little)) {}
+    PlyScalars(std::string_view body, PlyFormat format)
+        : rest_(body),
+          text_(format == PlyFormat::kAscii),
+          swap_((format == PlyFormat::kLittleEndian) !=
+                (std::endian::native == std::endian::little)) {}
 
     bool ok() const { return ok_; }
 
     double Read(PlyType type) {
+        if (text_) return ReadText();
         switch (type) {
             case PlyType::kInt8: return ReadAs<std::int8_t>();
             case PlyType::kUint8: return ReadAs<std::uint8_t>();
@@ -43,12 +47,29 @@ class BinaryScalars {
     }
 
     void Skip(PlyType type, std::uint64_t count) {
+        if (text_) {
+            for (std::uint64_t i = 0; i < count && ok_; ++i) ReadText();
+            return;
+        }
         const std::size_t bytes = PlyTypeBytes(type);
         ok_ = ok_ && count <= rest_.size() / bytes;
         if (ok_) rest_.remove_prefix(count * bytes);
     }
 
   private:
+    double ReadText() {
+        while (!rest_.empty() && IsSpace(rest_.front())) rest_.remove_prefix(1);
+        if (rest_.starts_with('+')) rest_.remove_prefix(1);
+        const char* const end = rest_.data() + rest_.size();
+        double value = 0;
+        const auto [after, error] = std::from_chars(rest_.data(), end, value);
+        ok_ = ok_ && error == std::errc() && (after == end || IsSpace(*after));
+        rest_.remove_prefix(static_cast<std::size_t>(after - rest_.data()));
+        return ok_ ? value : 0;
+    }
+
+    static bool IsSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
     template <class T>
     T ReadAs() {
         char bytes[sizeof(T)];
@@ -65,41 +86,7 @@ class BinaryScalars {
     }
 
     std::string_view rest_;
-    bool swap_;
-    bool ok_ = true;
-};
-
-class TextScalars {
-  public:
-    explicit TextScalars(std::string_view body) : next_(body.data()), end_(next_ + body.size()) {}
-
-    bool ok() const { return ok_; }
-
-    double Read(PlyType) {
-        while (next_ != end_ && IsSpace(*next_)) ++next_;
-        if (next_ != end_ && *next_ == '+') ++next_;
-        double value = 0;
-        const auto [after, error] = std::from_chars(next_, end_, value);
-        ok_ = ok_ && error == std::errc() && (after == end_ || IsSpace(*after));
-        next_ = after;
-        return ok_ ? value : 0;
-    }
-
-    std::uint64_t ReadCount(PlyType type) {
-        const double count = Read(type);
-        if (!(count >= 0 && count < 4294967296.0)) ok_ = false;
-        return ok_ ? static_cast<std::uint64_t>(count) : 0;
-    }
-
-    void Skip(PlyType type, std::uint64_t count) {
-        for (std::uint64_t i = 0; i < count && ok_; ++i) Read(type);
-    }
-
-  private:
-    static bool IsSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
-    const char* next_;
-    const char* end_;
+    bool text_, swap_;
     bool ok_ = true;
 };
 

@@ -1,5 +1,6 @@
+#include <array>
 #include <bit>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 
 #include "io/file.h"
@@ -9,30 +10,15 @@
 namespace tessera {
 namespace {
 
-// Collects small values and writes them in large pieces.
-class BinaryBuffer {
-  public:
-    explicit BinaryBuffer(AtomicFile& file) : file_(file) { bytes_.reserve(kMeshPieceBytes + 64); }
-    ~BinaryBuffer() { file_.Write(bytes_); }
-    BinaryBuffer(const BinaryBuffer&) = delete;
-    BinaryBuffer& operator=(const BinaryBuffer&) = delete;
+template <class T>
+void AddPly(const T& value, AtomicFile& file) {
+    static_assert(std::endian::native == std::endian::little, "PLY files are little endian");
+    file.Write({reinterpret_cast<const char*>(&value), sizeof(T)});
+}
 
-    template <class T>
-    void Add(const T& value) {
-        static_assert(std::endian::native == std::endian::little, "PLY files are little endian");
-        bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
-        if (bytes_.size() < kMeshPieceBytes) return;
-        file_.Write(bytes_);
-        bytes_.clear();
-    }
-    void AddVector(const Eigen::Vector3f& v) {
-        for (const float value : {v.x(), v.y(), v.z()}) Add(value);
-    }
-
-  private:
-    AtomicFile& file_;
-    std::string bytes_;
-};
+void AddPlyVector(const Eigen::Vector3f& v, AtomicFile& file) {
+    AddPly(std::array{v.x(), v.y(), v.z()}, file);
+}
 
 enum class Content { kMesh, kPoints };
 
@@ -57,22 +43,19 @@ Status WriteVertices(const std::string& path, const TriangleMesh& mesh, Content 
         return Status::Error(path + ": a PLY file holds at most 2^31 vertices");
     AtomicFile file(path);
     file.Write(Header(mesh, content));
-    {
-        BinaryBuffer buffer(file);
-        for (std::size_t i = 0; i < count; ++i) {
-            buffer.AddVector(mesh.vertices[i]);
-            if (!mesh.normals.empty()) buffer.AddVector(mesh.normals[i]);
-            if (!mesh.colours.empty()) buffer.Add(mesh.colours[i]);
-            if (mesh.labels.empty()) continue;
-            buffer.Add(mesh.labels[i].class_id);
-            buffer.Add(mesh.labels[i].instance);
-        }
-        if (content == Content::kMesh)
-            for (const auto& triangle : mesh.triangles) {
-                buffer.Add(std::uint8_t{3});
-                buffer.Add(triangle);
-            }
+    for (std::size_t i = 0; i < count; ++i) {
+        AddPlyVector(mesh.vertices[i], file);
+        if (!mesh.normals.empty()) AddPlyVector(mesh.normals[i], file);
+        if (!mesh.colours.empty()) AddPly(mesh.colours[i], file);
+        if (mesh.labels.empty()) continue;
+        AddPly(mesh.labels[i].class_id, file);
+        AddPly(mesh.labels[i].instance, file);
     }
+    if (content == Content::kMesh)
+        for (const auto& triangle : mesh.triangles) {
+            AddPly(std::uint8_t{3}, file);
+            AddPly(triangle, file);
+        }
     return file.Commit();
 }
 

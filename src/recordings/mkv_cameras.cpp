@@ -61,8 +61,9 @@ Status SetMkvCameras(const InputFile& file, const MkvIndex& index, ImageSize dep
     if (!cameras.ok()) return cameras.status();
     info.camera_known = own.ok() && AreUsableK4aCameras(cameras.value());
     if (!info.camera_known) {
+        info.camera_from = "the calibration of a usual Azure Kinect";
         info.notes.push_back((own.ok() ? "its calibration.json is not plausible" : own.message()) +
-                             "; the calibration of a usual Azure Kinect is assumed");
+                             "; " + info.camera_from + " is assumed");
         cameras = MakeK4aCameras(UsualK4aCalibration(), depth, colour);
     }
     info.depth_camera = cameras.value().depth;

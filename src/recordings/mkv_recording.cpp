@@ -157,7 +157,8 @@ std::vector<double> MkvStampsOf(const MkvImages& images, std::int64_t offset_ns)
 }
 
 std::vector<StampPair> PairMkvImages(const MkvIndex& index, const MkvImages& depth,
-                                     const MkvImages& colour, RecordingInfo& info) {
+                                     const MkvImages& colour, double colour_delay_s,
+                                     RecordingInfo& info) {
     constexpr std::int64_t kMostOffset_ns = std::int64_t{1} << 50;
     const std::int64_t offset_ns = MkvNumberTag(index, "K4A_START_OFFSET_NS", kMostOffset_ns);
     const std::int64_t delay_ns = MkvNumberTag(index, "K4A_DEPTH_DELAY_NS", 1'000'000'000);
@@ -173,7 +174,7 @@ std::vector<StampPair> PairMkvImages(const MkvIndex& index, const MkvImages& dep
         return pairs;
     }
     const double most_s = kMostMkvGap_frames / info.fps;
-    pairs = PairNearest(MkvStampsOf(depth, offset_ns - delay_ns), colour_s, most_s);
+    pairs = PairNearest(MkvStampsOf(depth, offset_ns - delay_ns), colour_s, most_s, colour_delay_s);
     info.pairs.clear();
     for (const StampPair& pair : pairs)
         info.pairs.push_back({depth_s[pair.depth], colour_s[pair.colour]});
@@ -187,7 +188,7 @@ std::vector<StampPair> PairMkvImages(const MkvIndex& index, const MkvImages& dep
 
 }  // namespace
 
-RecordingResult OpenMkv(const std::string& path) {
+RecordingResult OpenMkv(const std::string& path, double colour_delay_s) {
     Result<InputFile> file = InputFile::Open(path);
     if (!file.ok()) return file.status();
     Result<MkvIndex> index = ReadMkvIndex(file.value());
@@ -198,7 +199,8 @@ RecordingResult OpenMkv(const std::string& path) {
     Result<MkvImages> depth = TakeMkvDepth(index.value());
     if (!depth.ok()) return Status::Error(path + ": " + depth.message());
     MkvImages colour = TakeMkvColour(index.value(), info);
-    std::vector<StampPair> pairs = PairMkvImages(index.value(), depth.value(), colour, info);
+    std::vector<StampPair> pairs =
+        PairMkvImages(index.value(), depth.value(), colour, colour_delay_s, info);
     if (pairs.empty())
         return Status::Error(path + ": no depth image has a colour image of the same time");
     if (Status status =

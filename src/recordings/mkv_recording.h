@@ -11,7 +11,8 @@
 namespace tessera {
 
 // Time stamps are those of the device's clock. A depth image belongs to the colour image nearest in
-// time, if that is less than 0.6 frames away.
-RecordingResult OpenMkv(const std::string& path);
+// time, if that is less than 0.6 frames away. `colour_delay_s`: colour was taken so much later than
+// its stamps say (PairNearest).
+RecordingResult OpenMkv(const std::string& path, double colour_delay_s = 0);
 
 }  // namespace tessera

@@ -31,11 +31,15 @@ RecordingResult OpenRos(const std::string& path, const FolderSourceConfig& confi
                             {config.depth_topic, config.colour_topic});
 }
 
+RecordingResult OpenAzure(const std::string& path, const FolderSourceConfig& config) {
+    return OpenMkv(path, config.colour_delay_s);
+}
+
 constexpr std::array kRecordingKinds{
     RecordingKind{".bag", nullptr, OpenRos},
     RecordingKind{".mcap", nullptr, OpenRos},
     RecordingKind{".db3", nullptr, OpenRos},
-    RecordingKind{".mkv", nullptr, WithoutConfig<OpenMkv>},
+    RecordingKind{".mkv", nullptr, OpenAzure},
     RecordingKind{".r3d", nullptr, WithoutConfig<OpenRecord3d>},
     RecordingKind{".sens", nullptr, WithoutConfig<OpenSensRecording>},
     RecordingKind{nullptr, IsStrayFolder, WithoutConfig<OpenStrayRecording>},

@@ -125,6 +125,7 @@ class Record3dRecording : public Recording {
         info_.colour_camera.pinhole = camera;
         info_.depth_camera.pinhole = ScaledTo(camera, depth.width, depth.height);
         info_.depth_camera.depth_scale = kR3dUnitsPerMetre;
+        info_.depth_in_m = true;
         if (ReadConfidence(frame).ok() && !confidence_.empty())
             info_.notes.push_back("depth of confidence 0 is left out");
         return {};

@@ -24,14 +24,17 @@ struct RecordedPair {
 inline constexpr const char* kNoCameraInfo = "no camera_info";
 
 struct RecordingInfo {
-    std::string kind;                 // "ROS 1 bag", "ScanNet recording", ...
-    CameraCalibration depth_camera;   // with depth_scale: stored depth value of one metre
+    std::string kind;                // "ROS 1 bag", "ScanNet recording", ...
+    CameraCalibration depth_camera;  // with depth_scale: stored depth value of one metre
+    // The format has depth in metres: depth_scale is how we store it, and nobody can know better.
+    bool depth_in_m = false;
     CameraCalibration colour_camera;  // its depth_scale is not used
     // From the depth camera's frame to the colour camera's. Identity: depth is registered to
     // colour, though perhaps at another image size.
     Eigen::Isometry3d T_colour_depth = Eigen::Isometry3d::Identity();
     bool camera_known = true;  // false: the cameras are a guess, and a note says so
-    bool has_colour = true;    // false: no pair has a colour image
+    std::string camera_from = "the recording";  // as in SourceInfo
+    bool has_colour = true;                     // false: no pair has a colour image
     double fps = 30;
     std::vector<RecordedPair> pairs;           // depth stamps increase
     std::vector<std::string> notes, warnings;  // as in SourceInfo

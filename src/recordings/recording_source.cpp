@@ -31,9 +31,17 @@ bool HasOneCamera(const RecordingInfo& info) {
                    .maxCoeff() <= kSame_px;
 }
 
+// `who` gives the depth unit, which counts unless the format itself has metres.
+void UseDepthScale(double depth_scale, const std::string& who, RecordingInfo& info) {
+    if (info.depth_in_m)
+        info.notes.push_back("depth is recorded in metres: " + who + " is not applied");
+    else
+        info.depth_camera.depth_scale = depth_scale;
+}
+
 // The recording's cameras with what the configuration says.
 RecordingInfo Configured(RecordingInfo info, const FolderSourceConfig& config) {
-    if (config.depth_scale > 0) info.depth_camera.depth_scale = config.depth_scale;
+    if (config.depth_scale > 0) UseDepthScale(config.depth_scale, "source.depth_scale", info);
     if (config.camera) {
         const bool one_camera = HasOneCamera(info);
         info.depth_camera.pinhole = WithSizeOf(info.depth_camera.pinhole, *config.camera);
@@ -57,8 +65,7 @@ Status TakeCamera(const std::string& file, RecordingInfo& info) {
         return Status::Error(fmt::format("{}: is for images of {} x {}, but depth has {} x {}",
                                          file, camera.pinhole.width, camera.pinhole.height,
                                          depth.width, depth.height));
-    const double depth_scale =
-        camera.depth_scale_given ? camera.depth_scale : info.depth_camera.depth_scale;
+    const double depth_scale = info.depth_camera.depth_scale;
     info.depth_camera = info.colour_camera = camera;
     info.depth_camera.depth_scale = depth_scale;
     info.depth_camera.colour = info.colour_camera.colour = std::nullopt;
@@ -71,14 +78,16 @@ Status TakeCamera(const std::string& file, RecordingInfo& info) {
         info.colour_camera.pinhole = ScaledTo(camera.pinhole, colour.width, colour.height);
     }
     info.camera_known = true;
+    info.camera_from = "camera.yaml";
     std::erase_if(info.notes, [](const std::string& note) {
         return note.find(kNoCameraInfo) != std::string::npos;
     });
     info.notes.push_back("the camera is that of " + file);
+    if (camera.depth_scale_given) UseDepthScale(camera.depth_scale, "its depth_scale", info);
     return {};
 }
 
-class RecordingSource : public FrameSource {
+class RecordingSource : public ListedSource {
   public:
     RecordingSource(const std::string& path, std::unique_ptr<Recording> recording,
                     RecordingInfo info, const CameraCalibration& calibration, double colour_delay_s)
@@ -90,6 +99,7 @@ class RecordingSource : public FrameSource {
         info_.kind = recorded_.kind;
         info_.camera = recorded_.depth_camera.pinhole;
         info_.camera_known = recorded_.camera_known;
+        info_.camera_from = recorded_.camera_from;
         info_.one_camera = HasOneCamera(recorded_);
         info_.frame_count = std::ssize(recorded_.pairs);
         info_.fps = recorded_.fps;
@@ -100,8 +110,6 @@ class RecordingSource : public FrameSource {
         info_.notes = recorded_.notes;
         info_.warnings = recorded_.warnings;
     }
-
-    const SourceInfo& info() const override { return info_; }
 
     ReadResult Read(Frame& frame) override {
         if (next_ >= info_.frame_count) return {ReadStatus::kEnd, {}};
@@ -117,12 +125,6 @@ class RecordingSource : public FrameSource {
         frame.correction = correction_;
         frame.T_world_camera.reset();
         return {};
-    }
-
-    bool Seek(std::int64_t index) override {
-        if (index < 0 || index > info_.frame_count) return false;
-        next_ = index;
-        return true;
     }
 
     std::vector<double> Stamps_s() const override {
@@ -167,10 +169,8 @@ class RecordingSource : public FrameSource {
     const RecordingInfo recorded_;
     Rectifier rectifier_;
     const StampCorrection correction_;
-    SourceInfo info_;
     Image<std::uint16_t> depth_;
     ColourImage colour_;
-    std::int64_t next_ = 0;
 };
 
 }  // namespace

@@ -59,9 +59,9 @@ CameraCalibration CalibrationOf(const RosContents& contents, const RosStream& st
     const RosCamera* camera = RosCameraOf(contents, stream);
     if (camera == nullptr) {
         info.camera_known = false;
-        info.notes.push_back(
-            fmt::format("{}: {}, or only zeros in it: assuming a field of view of 60 degrees",
-                        stream.topic, kNoCameraInfo));
+        info.camera_from = kNominalCamera;
+        info.notes.push_back(fmt::format("{}: {}, or only zeros in it: assuming {}", stream.topic,
+                                         kNoCameraInfo, kNominalCamera));
         calibration.pinhole = NominalPinhole(stream.width, stream.height);
     } else if (stream.topic.find("rect") != std::string::npos) {
         calibration.pinhole = camera->rectified;
@@ -162,6 +162,7 @@ Result<RosChoice> ChooseRosStreams(const RosContents& contents, const RosTopics&
 
 void FindRosCameras(const RosContents& contents, const RosChoice& choice, RecordingInfo& info) {
     info.depth_camera = CalibrationOf(contents, *choice.depth, info);
+    info.depth_in_m = choice.depth->depth_in_m;
     NoteUnused(contents, choice, info);
     if (choice.colour == nullptr) {
         info.colour_camera = info.depth_camera;

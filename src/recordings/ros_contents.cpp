@@ -117,6 +117,7 @@ class RosScan {
         stream.width = static_cast<int>(image.width);
         stream.height = static_cast<int>(image.height);
         stream.depth_scale = RosDepthScale(image.encoding);
+        stream.depth_in_m = IsRosDepthInMetres(image.encoding);
         if (image.depth_unit_m > 1e-6f && image.depth_unit_m < 0.1f)
             stream.depth_scale = 1 / static_cast<double>(image.depth_unit_m);
     }
@@ -127,6 +128,7 @@ class RosScan {
         stream.is_depth = image->format.find("compressedDepth") != std::string_view::npos ||
                           stream.topic.ends_with("/compressedDepth");
         stream.depth_scale = RosDepthScale(image->format);
+        stream.depth_in_m = IsRosDepthInMetres(image->format);
         // compressed_image_transport puts the encoding first: "mono8; jpeg compressed ".
         const std::string_view encoding = image->format.substr(0, image->format.find(';'));
         stream.is_grey = IsGreyEncoding(encoding);

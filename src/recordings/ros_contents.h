@@ -31,6 +31,7 @@ struct RosStream {
     int width = 0, height = 0;          // pixels; 0: its images are of no use
     std::string unread;                 // why they are of no use
     double depth_scale = 1000;          // stored value of one metre
+    bool depth_in_m = false;            // as in RecordingInfo
     std::vector<RosImagePlace> images;  // stamps increase
 };
 

@@ -121,8 +121,12 @@ bool IsColourEncoding(std::string_view encoding) {
            LayoutOf(kYuvLayouts, encoding) != nullptr;
 }
 
+bool IsRosDepthInMetres(std::string_view encoding_or_format) {
+    return encoding_or_format.starts_with("32FC1");
+}
+
 double RosDepthScale(std::string_view encoding_or_format) {
-    return encoding_or_format.starts_with("32FC1") ? kUnitsOfFloats : 1000;
+    return IsRosDepthInMetres(encoding_or_format) ? kUnitsOfFloats : 1000;
 }
 
 Status DecodeRosDepth(const RosImage& message, Image<std::uint16_t>& depth) {
@@ -181,7 +185,7 @@ Status DecodeRosDepth(const RosCompressedImage& message, Image<std::uint16_t>& d
     }
     const bool is_rvl = message.format.find("compressedDepth rvl") != std::string_view::npos;
     Status status = is_rvl ? DecodeRvlImage(file, depth) : DecodePng16(file, depth);
-    if (!status.ok() || !message.format.starts_with("32FC1")) return status;
+    if (!status.ok() || !IsRosDepthInMetres(message.format)) return status;
     std::for_each_n(depth.data(), depth.size(), [&](std::uint16_t& stored) {
         if (stored != 0) stored = StoredDepth(a / (static_cast<float>(stored) - b));
     });

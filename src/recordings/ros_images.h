@@ -21,6 +21,8 @@ Status DecodeRosDepth(const RosCompressedImage& message, Image<std::uint16_t>& d
 // JPEG or PNG.
 Status DecodeRosColour(const RosCompressedImage& message, ColourImage& colour);
 
+// Floats.
+bool IsRosDepthInMetres(std::string_view encoding_or_format);
 // Stored value of a metre: 1000 for integers, 5000 for floats.
 double RosDepthScale(std::string_view encoding_or_format);
 

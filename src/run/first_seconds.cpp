@@ -13,6 +13,19 @@ constexpr double kWindow_s = 8, kEvery_s = 0.1, kShortest_s = 0.06;
 constexpr int kLeastViews = 12;
 constexpr std::int64_t kMostFrames = 100000;
 
+// For a reader, which takes the source that it reads.
+class BorrowedSource : public FrameSource {
+  public:
+    explicit BorrowedSource(FrameSource& source) : source_(source) {}
+
+    const SourceInfo& info() const override { return source_.info(); }
+    ReadResult Read(Frame& frame) override { return source_.Read(frame); }
+    bool Seek(std::int64_t index) override { return source_.Seek(index); }
+
+  private:
+    FrameSource& source_;
+};
+
 // Number of source frames in a tenth of a second, from the stamps of its first frames.
 std::int64_t StrideOf(FrameSource& source, std::int64_t start) {
     constexpr int kProbes = 3;
@@ -52,17 +65,16 @@ std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelectio
 
 }  // namespace
 
-FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
-                                const FrameSelection& selection, bool one_camera,
-                                double colour_readout_s) {
-    const std::optional<FrameSelection> part = PartToSee(*source, selection);
+FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selection,
+                                bool one_camera, double colour_readout_s) {
+    const std::optional<FrameSelection> part = PartToSee(source, selection);
     if (!part) return {};
-    const SourceInfo info = source->info();
+    const SourceInfo info = source.info();
     CameraEstimator estimator(info.camera);
     ColourShiftEstimator registration;
     ColourDelayEstimator delay(info.camera);
     int views = 0;
-    FrameReader reader(std::move(source), *part);
+    FrameReader reader(std::make_unique<BorrowedSource>(source), *part);
     Frame frame;
     std::optional<double> first_s, last_s;
     while (true) {
@@ -93,24 +105,24 @@ FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
     return seen;
 }
 
-std::optional<DepthDistortionEstimate> LookAtDepth(std::unique_ptr<FrameSource> source,
+std::optional<DepthDistortionEstimate> LookAtDepth(FrameSource& source,
                                                    const FrameSelection& selection) {
     constexpr std::int64_t kMostParts = 5, kViewsOfPart = 40;
-    const std::optional<FrameSelection> all = PartToSee(*source, selection);
+    const std::optional<FrameSelection> all = PartToSee(source, selection);
     if (!all) return std::nullopt;
     // A source whose length is not known shows its beginning only.
     const std::int64_t views = all->count < 0 ? kViewsOfPart * 2 : all->count;
     const std::int64_t parts = std::clamp<std::int64_t>(views / kViewsOfPart, 1, kMostParts);
     const std::int64_t of_part =
         parts < kMostParts ? views / parts : std::min(views / parts, kViewsOfPart);
-    DepthDistortionEstimator estimator(source->info().camera);
+    DepthDistortionEstimator estimator(source.info().camera);
     Frame frame;
     for (std::int64_t part = 0; part < parts; ++part) {
         const std::int64_t first = parts > 1 ? part * (views - of_part) / (parts - 1) : 0;
         estimator.StartPart();
         for (std::int64_t view = first; view < first + of_part; ++view) {
-            if (!source->Seek(all->start + view * all->stride)) break;
-            if (source->Read(frame).status == ReadStatus::kOk) estimator.Add(frame);
+            if (!source.Seek(all->start + view * all->stride)) break;
+            if (source.Read(frame).status == ReadStatus::kOk) estimator.Add(frame);
         }
     }
     return estimator.Estimate();

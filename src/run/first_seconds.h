@@ -1,7 +1,6 @@
 // What a recording shows about its camera before it is run.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "io/frame_source.h"
@@ -20,17 +19,16 @@ struct FirstSeconds {
     std::optional<ColourDelay> delay;
 };
 
-// Reads the first eight seconds of the selection, ten frames of each. Consumes the source.
+// Reads the first eight seconds of the selection, ten frames of each, and leaves the source there.
 // `one_camera`: colour and depth are of one camera, whose intrinsics are estimated.
 // `colour_readout_s`: colour's read-out time as configured; 0 if it is not known.
-FirstSeconds LookAtFirstSeconds(std::unique_ptr<FrameSource> source,
-                                const FrameSelection& selection, bool one_camera,
-                                double colour_readout_s);
+FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selection,
+                                bool one_camera, double colour_readout_s);
 
 // Reads ten frames of each second: of a selection of up to 20 s all, in parts of at least four
-// seconds; of a longer one five parts of four seconds, evenly spread. Consumes the source. Nothing
-// if they show too little, or if the source cannot seek.
-std::optional<DepthDistortionEstimate> LookAtDepth(std::unique_ptr<FrameSource> source,
+// seconds; of a longer one five parts of four seconds, evenly spread. Leaves the source there.
+// Nothing if they show too little, or if the source cannot seek.
+std::optional<DepthDistortionEstimate> LookAtDepth(FrameSource& source,
                                                    const FrameSelection& selection);
 
 }  // namespace tessera

@@ -5,8 +5,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "recordings/open_recording.h"
+#include "io/corrected_depth.h"
 #include "run/first_seconds.h"
+#include "run/kept_source.h"
 #include "run/open_source.h"
 #include "scan/scan_content.h"
 
@@ -25,11 +26,10 @@ bool IsFileOrFolder(const std::string& name) {
     return std::filesystem::exists(name, ignored) && !name.ends_with(".scan");
 }
 
-// Opens the source with `camera` instead of the given one.
-Result<std::unique_ptr<FrameSource>> OpenWith(const std::string& name, RunConfig config,
-                                              const std::optional<PinholeCamera>& camera) {
+// The settings with `camera` instead of the given one.
+RunConfig WithCamera(RunConfig config, const std::optional<PinholeCamera>& camera) {
     if (camera) UseCamera(*camera, config);
-    return OpenSource(name, config);
+    return config;
 }
 
 // The scan's own camera, if it differs slightly from the source's.
@@ -45,54 +45,51 @@ std::optional<PinholeCamera> CameraOfScan(const std::string& path, const Pinhole
 // OpenNI registers and pairs its images by itself.
 bool IsOni(const std::string& name) { return name.ends_with(".oni"); }
 
-std::string GivenBy(const std::string& name) {
-    if (IsOni(name)) return "the device";
-    return IsRecording(name) ? "the recording" : "camera.yaml";
-}
-
 void Describe(const SourceInfo& given, const std::optional<CameraReport>& report,
               std::vector<std::string>& messages) {
     const std::string assumed =
-        fmt::format("assuming a field of view of 60 degrees, fx {:.1f}", given.camera.fx);
+        fmt::format("assuming {}, fx {:.1f}", given.camera_from, given.camera.fx);
+    const bool oni = IsOni(given.name);
+    const char* none = oni ? "the device says no focal length" : "no camera.yaml";
     if (!report) {
         if (!given.camera_known)
             messages.push_back(
-                "no camera.yaml, and the focal length cannot be estimated from this recording: " +
-                assumed);
+                fmt::format("{}, and the focal length cannot be estimated from this recording: {}",
+                            none, assumed));
         return;
     }
     const CameraEstimate& e = report->estimate;
     if (!given.camera_known)
-        messages.push_back(
-            fmt::format("no camera.yaml: the estimate from this recording is fx {:.1f} +- {:.1f}{}",
-                        e.found.fx, e.focal_sigma_px,
-                        report->used ? ", which is used; add a camera.yaml if you know better"
-                                     : ", which is too uncertain: " + assumed));
+        messages.push_back(fmt::format(
+            "{}: the estimate from this recording is fx {:.1f} +- {:.1f}{}", none, e.found.fx,
+            e.focal_sigma_px,
+            report->used ? fmt::format(", which is used; {} if you know better",
+                                       oni ? "set source.openni.fx and fy" : "add a camera.yaml")
+                         : ", which is too uncertain: " + assumed));
     else if (report->used)
-        messages.push_back(EstimateText(e, GivenBy(given.name)) + "; the estimate is used");
+        messages.push_back(EstimateText(e, given.camera_from) + "; the estimate is used");
 }
 
-// Opens the source as the run will, and once more if its depth has errors that can be taken away.
-Status OpenCorrected(const RunRequest& request, RunConfig& config,
-                     const std::optional<PinholeCamera>& camera, CheckedSource& checked) {
-    Result<std::unique_ptr<FrameSource>> opened = OpenWith(request.source, config, camera);
-    if (!opened.ok()) return opened.status();
-    checked.found.depth_distortion = LookAtDepth(std::move(opened.value()), request.selection);
-    if (checked.found.depth_distortion && checked.found.depth_distortion->shown()) {
-        checked.found.depth_distortion->used = true;
-        config.source.depth_distortion = checked.found.depth_distortion->found;
-        checked.messages.push_back(DepthDistortionText(*checked.found.depth_distortion) +
-                                   ": corrected");
-    }
-    opened = OpenWith(request.source, config, camera);
-    if (!opened.ok()) return opened.status();
-    checked.source = std::move(opened.value());
+// Gives the source as the run will read it, without the errors of its depth.
+Status TakeCorrected(const RunRequest& request, const RunConfig& config, KeptSource& kept,
+                     CheckedSource& checked) {
+    Result<FrameSource*> source = kept.With(config);
+    if (!source.ok()) return source.status();
+    std::optional<DepthDistortionEstimate>& depth = checked.found.depth_distortion;
+    depth = LookAtDepth(*source.value(), request.selection);
+    source = kept.With(config);
+    if (!source.ok()) return source.status();
+    checked.source = kept.Take();
+    if (!depth || !depth->shown()) return Status::Ok();
+    depth->used = true;
+    checked.source = CorrectDepth(std::move(checked.source), depth->found);
+    checked.messages.push_back(DepthDistortionText(*depth) + ": corrected");
     return Status::Ok();
 }
 
 // Looks again with the first estimate if that differs from the given camera.
 Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const RunConfig& config,
-                                                const SourceInfo& given,
+                                                const SourceInfo& given, KeptSource& kept,
                                                 const std::optional<CameraEstimate>& first,
                                                 std::optional<CameraReport>& report) {
     const auto to_use = [&](const CameraEstimate& estimate) -> std::optional<PinholeCamera> {
@@ -103,10 +100,10 @@ Result<std::optional<PinholeCamera>> FindCamera(const RunRequest& request, const
     if (!first) return std::optional<PinholeCamera>();
     std::optional<PinholeCamera> camera = to_use(*first);
     if (!camera) return camera;
-    Result<std::unique_ptr<FrameSource>> again = OpenWith(request.source, config, camera);
+    const Result<FrameSource*> again = kept.With(WithCamera(config, camera));
     if (!again.ok()) return again.status();
     std::optional<CameraEstimate> second =
-        LookAtFirstSeconds(std::move(again.value()), request.selection, true,
+        LookAtFirstSeconds(*again.value(), request.selection, true,
                            config.pipeline.shutter.colour_readout_s)
             .camera;
     if (!second) return camera;
@@ -129,7 +126,7 @@ void CorrectDelay(const FirstSeconds& seen, RunConfig& config, CheckedSource& ch
 // Corrects the registration and the brightness of colour in `config` if the images show errors, and
 // looks again if they are large.
 Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConfig& config,
-                     FirstSeconds& seen, CheckedSource& checked) {
+                     KeptSource& kept, FirstSeconds& seen, CheckedSource& checked) {
     checked.found.colour_shift = seen.colour;
     if (seen.camera)
         checked.found.vignetting =
@@ -152,9 +149,9 @@ Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConf
     }
     const bool moved = checked.found.colour_shift && checked.found.colour_shift->used;
     if (!moved && std::abs(config.source.vignetting) < kLookAgain) return Status::Ok();
-    Result<std::unique_ptr<FrameSource>> again = OpenSource(request.source, config);
+    const Result<FrameSource*> again = kept.With(config);
     if (!again.ok()) return again.status();
-    seen = LookAtFirstSeconds(std::move(again.value()), request.selection, given.one_camera,
+    seen = LookAtFirstSeconds(*again.value(), request.selection, given.one_camera,
                               config.pipeline.shutter.colour_readout_s);
     if (config.source.vignetting != 0 && seen.camera && seen.camera->plausible())
         config.source.vignetting = checked.found.vignetting->share += seen.camera->vignetting;
@@ -166,18 +163,19 @@ Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConf
 Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config,
                                         const std::atomic<bool>* stop) {
     CheckedSource checked;
-    Result<std::unique_ptr<FrameSource>> opened = OpenSource(request.source, config, stop);
+    KeptSource kept(
+        [&](const RunConfig& settings) { return OpenSource(request.source, settings, stop); });
+    const Result<FrameSource*> opened = kept.With(config);
     if (!opened.ok()) return opened.status();
     const SourceInfo given = opened.value()->info();
     if (!config.check_camera || given.live || !IsFileOrFolder(request.source)) {
-        checked.source = std::move(opened.value());
+        checked.source = kept.Take();
         return checked;
     }
     RunConfig corrected = config;
-    FirstSeconds seen =
-        LookAtFirstSeconds(std::move(opened.value()), request.selection, given.one_camera,
-                           config.pipeline.shutter.colour_readout_s);
-    if (Status status = CorrectColour(request, given, corrected, seen, checked); !status.ok())
+    FirstSeconds seen = LookAtFirstSeconds(*opened.value(), request.selection, given.one_camera,
+                                           config.pipeline.shutter.colour_readout_s);
+    if (Status status = CorrectColour(request, given, corrected, kept, seen, checked); !status.ok())
         return status;
     if (!IsOni(request.source)) CorrectDelay(seen, corrected, checked);
     std::optional<PinholeCamera> camera;
@@ -186,15 +184,16 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
         if (camera)
             checked.messages.push_back(
                 fmt::format("{} says fx {:.1f}, but the scan was made with {:.1f}, which is used",
-                            GivenBy(given.name), given.camera.fx, camera->fx));
+                            given.camera_from, given.camera.fx, camera->fx));
     } else if (given.one_camera) {
         Result<std::optional<PinholeCamera>> found =
-            FindCamera(request, corrected, given, seen.camera, checked.found.camera);
+            FindCamera(request, corrected, given, kept, seen.camera, checked.found.camera);
         if (!found.ok()) return found.status();
         camera = found.value();
         Describe(given, checked.found.camera, checked.messages);
     }
-    if (Status status = OpenCorrected(request, corrected, camera, checked); !status.ok())
+    if (Status status = TakeCorrected(request, WithCamera(corrected, camera), kept, checked);
+        !status.ok())
         return status;
     return checked;
 }

@@ -22,7 +22,8 @@ struct CheckedSource {
 // built-in scene's camera is exact, and a scan keeps the camera it was made with. Intrinsics of two
 // cameras would need two estimates; of those only the registration and the time stamps are checked.
 // Reads the first seconds of the selection, again with what was found, and then parts of all of it
-// for the errors of depth. Errors are those of OpenSource.
+// for the errors of depth. The source is opened again only where its settings change, or if it
+// cannot seek. Errors are those of OpenSource.
 Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConfig& config,
                                         const std::atomic<bool>* stop = nullptr);
 

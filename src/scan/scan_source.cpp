@@ -66,9 +66,9 @@ void ScanSource::FindReadouts() {
 }
 
 ReadResult ScanSource::Read(Frame& frame) {
-    if (next_ == keys_.size()) return {ReadStatus::kEnd, {}};
-    const std::size_t position = next_++;
-    const std::int64_t key = keys_[position];
+    if (next_ == info_.frame_count) return {ReadStatus::kEnd, {}};
+    const std::int64_t position = next_++;
+    const std::int64_t key = keys_[static_cast<std::size_t>(position)];
     const auto bad = [&](const std::string& why) {
         return ReadResult{ReadStatus::kSkip, fmt::format("{}: frame {}: {}", info_.name, key, why)};
     };
@@ -82,17 +82,11 @@ ReadResult ScanSource::Read(Frame& frame) {
         (!frame.colour.empty() &&
          (frame.colour.width() != c.width || frame.colour.height() != c.height)))
         return bad("does not have the camera's size");
-    frame.index = static_cast<std::int64_t>(position);
+    frame.index = position;
     frame.stamp_s = record.stamp_s;
     frame.colour_stamp_s = record.colour_stamp_s;
     frame.T_world_camera = path_[static_cast<std::size_t>(key)].T_world_camera_truth;
     return {};
-}
-
-bool ScanSource::Seek(std::int64_t index) {
-    if (index < 0 || index > static_cast<std::int64_t>(keys_.size())) return false;
-    next_ = static_cast<std::size_t>(index);
-    return true;
 }
 
 std::vector<double> ScanSource::Stamps_s() const {

@@ -9,15 +9,13 @@
 
 namespace tessera {
 
-class ScanSource : public FrameSource {
+class ScanSource : public ListedSource {
   public:
     // Checks all frames. Errors name the file; if it has no frames, the error says how to keep
     // them.
     static Result<std::unique_ptr<FrameSource>> Open(const std::string& path);
 
-    const SourceInfo& info() const override { return info_; }
     ReadResult Read(Frame& frame) override;
-    bool Seek(std::int64_t index) override;
     std::vector<double> Stamps_s() const override;
 
   private:
@@ -25,11 +23,9 @@ class ScanSource : public FrameSource {
     explicit ScanSource(std::unique_ptr<ScanFile> file, const ScanContent& content);
 
     std::unique_ptr<ScanFile> file_;
-    SourceInfo info_;
     FrameStore decoder_;  // used for decoding only
     std::vector<std::int64_t> keys_;
     std::vector<PathRecord> path_;
-    std::size_t next_ = 0;
 };
 
 }  // namespace tessera

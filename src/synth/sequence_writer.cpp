@@ -20,12 +20,6 @@ namespace {
 constexpr double kDepthScale = 5000;  // stored value per metre
 constexpr float kFarthestStored_m = static_cast<float>(65535 / kDepthScale);
 
-Status FirstError(std::initializer_list<Status> statuses) {
-    for (const Status& status : statuses)
-        if (!status.ok()) return status;
-    return Status::Ok();
-}
-
 ColourImage Grey(const Image<Mobility>& mobility) {
     ColourImage grey(mobility.width(), mobility.height());
     std::transform(mobility.data(), mobility.data() + mobility.size(), grey.data(), [](Mobility m) {

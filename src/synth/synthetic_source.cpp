@@ -59,12 +59,6 @@ SyntheticSource::SyntheticSource(std::string name, StagedScene staged, const Syn
     info_.notes = {staged_.description};
 }
 
-bool SyntheticSource::Seek(std::int64_t index) {
-    if (index < 0 || index > info_.frame_count) return false;
-    next_ = index;
-    return true;
-}
-
 ReadResult SyntheticSource::Read(Frame& frame) {
     ReadResult read = ReadFrame(frame, view_, false);
     if (read.status == ReadStatus::kOk) faults_.Apply(frame);

@@ -34,15 +34,13 @@ struct SynthConfig {
     Status Validate() const;
 };
 
-class SyntheticSource : public FrameSource {
+class SyntheticSource : public ListedSource {
   public:
     SyntheticSource(std::string name, StagedScene staged, const SynthConfig& config);
 
-    const SourceInfo& info() const override { return info_; }
     ReadResult Read(Frame& frame) override;
     // Also fills `truth`: the ideal view from which the frame was measured. Without faults.
     ReadResult ReadWithTruth(Frame& frame, RenderedView& truth);
-    bool Seek(std::int64_t index) override;
 
     const Scene& scene() const { return *staged_.scene; }
     const SynthConfig& config() const { return config_; }
@@ -55,9 +53,7 @@ class SyntheticSource : public FrameSource {
     FrameRenderer renderer_;
     SensorModel sensor_;
     FrameFaults faults_;
-    SourceInfo info_;
     RenderedView view_;
-    std::int64_t next_ = 0;
 };
 
 // Time stamp of the first frame. File names made from the stamps sort as text.

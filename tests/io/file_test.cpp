@@ -50,6 +50,19 @@ TEST_F(FileTest, KeepsTheOldFileWhenGivenUp) {
     EXPECT_EQ(FilesInFolder(), 1u);
 }
 
+TEST_F(FileTest, PiecesOfAnySizeStayInOrder) {
+    std::string all;
+    AtomicFile file(Path("a.txt"));
+    for (const std::size_t size : {3u, 65000u, 600u, 70000u, 1u, 65536u, 65535u, 2u, 200000u, 5u}) {
+        const std::string piece(size, static_cast<char>('a' + all.size() % 26));
+        file.Write(piece);
+        all += piece;
+    }
+    EXPECT_FALSE(fs::exists(Path("a.txt")));
+    ASSERT_TRUE(file.Commit().ok());
+    EXPECT_TRUE(Text("a.txt") == all);
+}
+
 TEST_F(FileTest, KeepsModeAndSymbolicLink) {
     ASSERT_TRUE(WriteTextFile(Path("target"), "old").ok());
     ASSERT_EQ(chmod(Path("target").c_str(), 0600), 0);

@@ -61,6 +61,7 @@ TEST(ReadFolderLayout, RecognisesTumListsAndTheirCameraFile) {
     ASSERT_TRUE(layout.ok()) << layout.message();
     EXPECT_EQ(layout.value().kind, "TUM RGB-D folder");
     EXPECT_EQ(layout.value().calibration.pinhole.fx, 30);
+    EXPECT_EQ(layout.value().camera_from, "camera.yaml");
     ASSERT_EQ(layout.value().frames.size(), 2u);
     EXPECT_EQ(layout.value().frames[1].depth_path, folder.Path("depth/2.png"));
     EXPECT_TRUE(layout.value().notes.empty());
@@ -75,6 +76,7 @@ TEST(ReadFolderLayout, TakesThePublishedCameraOfANamedFolder) {
         EXPECT_EQ(layout.value().calibration.pinhole.fx, 520.9);
         EXPECT_EQ(layout.value().calibration.distortion.k3, 0.9172);
         EXPECT_TRUE(HasNote(layout.value(), "published calibration of freiburg2"));
+        EXPECT_EQ(layout.value().camera_from, "the published calibration of freiburg2");
     }
 }
 

@@ -218,6 +218,17 @@ TEST(FolderSource, AssumesACameraWhereNobodyGaveOne) {
     }
 }
 
+TEST(FolderSource, AssumesNoDepthUnitWhereTheUserHasSetIt) {
+    TemporaryFolder folder;
+    WriteSequence(folder, 1);
+    folder.WriteText("camera.yaml", "width: 32\nheight: 24\nfx: 30\nfy: 31\ncx: 15\ncy: 11\n");
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(Open(folder)->info().notes.size(), 1u);
+        EXPECT_TRUE(Open(folder, {.depth_scale = 2000})->info().notes.empty());
+        std::filesystem::remove(folder.Path("camera.yaml"));
+    }
+}
+
 TEST(FolderSource, TakesTheProgramsCameraInPlaceOfTheFiles) {
     TemporaryFolder folder;
     WriteSequence(folder, 1);

@@ -68,6 +68,17 @@ TEST(ReadFolderLayout, CorrectsTheTimeStampsThatAreLate) {
     EXPECT_NEAR(colour_late.value().frames[0].colour_stamp_s, 1.002, 1e-9);
 }
 
+TEST(ReadFolderLayout, StampsInNamesAreCorrectedBeforeImagesArePaired) {
+    TemporaryFolder folder;
+    for (const char* name : {"depth/1.004.png", "depth/1.040.png", "rgb/1.020.png"})
+        folder.WriteText(name, "");
+    const auto layout = ReadFolderLayout(folder.path(), 0.03, 0.018);
+    ASSERT_TRUE(layout.ok()) << layout.message();
+    ASSERT_EQ(layout.value().frames.size(), 1u);
+    EXPECT_EQ(layout.value().frames[0].depth_path, folder.Path("depth/1.040.png"));
+    EXPECT_NEAR(layout.value().frames[0].depth_stamp_s, 1.022, 1e-9);
+}
+
 TEST(ReadFolderLayout, WhereImagesShareAStampEachGetsHalfOfTheCorrection) {
     TemporaryFolder folder;
     WriteTumLists(folder);

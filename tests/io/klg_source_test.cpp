@@ -240,6 +240,7 @@ TEST_F(Klg, WithoutACameraFileTheUsualOneIsAssumedAndNoted) {
     const auto source = Open();
     ASSERT_TRUE(source.ok()) << source.message();
     EXPECT_EQ(source.value()->info().camera.fx, 528);
+    EXPECT_FALSE(source.value()->info().camera_known);
     ASSERT_EQ(source.value()->info().notes.size(), 1u);
     EXPECT_FALSE(source.value()->info().has_colour);
     ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);

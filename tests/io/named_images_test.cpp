@@ -60,6 +60,14 @@ TEST(PairByName, ReadsNanoseconds) {
     EXPECT_EQ(images.value().pairs[0].colour_stamp_s, 1403636579.763);
 }
 
+TEST(PairByName, NumbersWithZerosBeforeThemAreNoStamps) {
+    TemporaryFolder folder;
+    Touch(folder, {"depth/0000000000000042.png", "rgb/0000000000000042.png"});
+    const auto images = Pair(folder);
+    ASSERT_TRUE(images.ok()) << images.message();
+    EXPECT_EQ(images.value().pairs[0].depth_stamp_s, 4.2);
+}
+
 TEST(PairByName, PairsByOrderWhereNamesHaveNoNumbers) {
     TemporaryFolder folder;
     Touch(folder, {"depth/b.png", "depth/a.png", "image/y.png", "image/x.png"});

@@ -25,5 +25,16 @@ TEST(StreamWatch, NamesTheStreamThatIsSilent) {
     EXPECT_DOUBLE_EQ(watch.Silence_s(4.5), 1.5);
 }
 
+TEST(StreamWatch, TimeInWhichNobodyListensIsNoSilence) {
+    StreamWatch watch(0);
+    watch.Heard(true, 10);
+    watch.Heard(false, 10);
+    watch.NotHeard(5);
+    watch.Heard(true, 15.01);
+    EXPECT_NEAR(watch.Silence_s(15.01), 0.01, 1e-9);
+    EXPECT_EQ(watch.NewSilence(15.01), "");
+    EXPECT_EQ(watch.NewSilence(16.1), "no images for 1.1 s");
+}
+
 }  // namespace
 }  // namespace tessera

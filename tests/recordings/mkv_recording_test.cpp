@@ -119,6 +119,15 @@ TEST_F(MkvRecordings, DepthMayBeTakenLaterThanItsColour) {
     EXPECT_NEAR(recording.value()->info().pairs[2].colour_stamp_s, 0.1 + 0.09, 1e-9);
 }
 
+TEST_F(MkvRecordings, ColourMayBeTakenLaterThanItsStampSays) {
+    recipe.colour_late_ms = 10;
+    WriteMkv(folder, "a.mkv", recipe);
+    const auto recording = OpenMkv(folder.Path("a.mkv"), 0.03);
+    ASSERT_TRUE(recording.ok()) << recording.message();
+    ASSERT_EQ(recording.value()->info().pairs.size(), 5u);
+    ExpectPair(*recording.value(), 2, 3, 2);
+}
+
 TEST_F(MkvRecordings, WithoutACalibrationAUsualOneIsAssumed) {
     const std::string device = kK4aDevice;
     std::string implausible = device;

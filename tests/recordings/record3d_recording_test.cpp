@@ -87,6 +87,7 @@ TEST_F(Record3d, GivesAllPixelsInTheOrderOfNumbers) {
     EXPECT_EQ(info.colour_camera.pinhole, (PinholeCamera{48, 64, 50, 52, 23, 33}));
     EXPECT_EQ(info.depth_camera.pinhole, (PinholeCamera{12, 16, 12.5, 13, 5.375, 7.875}));
     EXPECT_EQ(info.depth_camera.depth_scale, 10000);
+    EXPECT_TRUE(info.depth_in_m);
     for (const int frame : {3, 0, 2, 1})
         ExpectFrame(*recording.value(), static_cast<std::size_t>(frame), frame);
 }

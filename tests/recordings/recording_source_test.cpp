@@ -142,6 +142,28 @@ TEST(RecordingSource, TheConfigurationReplacesTheCameraAndTheUnit) {
     EXPECT_FLOAT_EQ(frame.depth_m(5, 5), 2);
 }
 
+TEST(RecordingSource, WhereTheFormatHasMetresNobodyElseGivesTheUnit) {
+    TemporaryFolder folder;
+    const std::string file = folder.Path("camera.yaml");
+    std::ofstream(file)
+        << "width: 32\nheight: 24\nfx: 41\nfy: 42\ncx: 16\ncy: 12\ndepth_scale: 500\n";
+    for (const bool has_file : {false, true}) {
+        auto recording = std::make_unique<MadeUpRecording>();
+        recording->info_.depth_in_m = true;
+        recording->info_.camera_known = !has_file;
+        FolderSourceConfig config;
+        if (!has_file) config.depth_scale = 500;
+        const auto source = MakeRecordingSource("/made/up", std::move(recording), config, file);
+        ASSERT_TRUE(source.ok()) << source.message();
+        Frame frame;
+        ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
+        EXPECT_FLOAT_EQ(frame.depth_m(5, 5), 1);
+        EXPECT_EQ(source.value()->info().notes.back(),
+                  std::string("depth is recorded in metres: ") +
+                      (has_file ? "its depth_scale" : "source.depth_scale") + " is not applied");
+    }
+}
+
 TEST(RecordingSource, ACameraFileCountsWhereTheRecordingHasNoCamera) {
     TemporaryFolder folder;
     const std::string file = folder.Path("camera.yaml");
@@ -158,12 +180,14 @@ TEST(RecordingSource, ACameraFileCountsWhereTheRecordingHasNoCamera) {
     ASSERT_TRUE(source.ok()) << source.message();
     EXPECT_EQ(source.value()->info().camera, (PinholeCamera{32, 24, 41, 42, 16, 12}));
     EXPECT_TRUE(source.value()->info().camera_known);
+    EXPECT_EQ(source.value()->info().camera_from, "camera.yaml");
     EXPECT_EQ(source.value()->info().notes,
               std::vector<std::string>{"the camera is that of " + file});
     Frame frame;
     ASSERT_EQ(source.value()->Read(frame).status, ReadStatus::kOk);
     EXPECT_FLOAT_EQ(frame.depth_m(5, 5), 2);
     EXPECT_EQ(open(true).value()->info().camera, kSmallCamera);
+    EXPECT_EQ(open(true).value()->info().camera_from, "the recording");
     std::ofstream(file) << "width: 33\n" << values;
     EXPECT_EQ(open(false).message(), file + ": is for images of 33 x 24, but depth has 32 x 24");
 }

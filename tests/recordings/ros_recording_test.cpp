@@ -39,6 +39,7 @@ void ExpectPlainRecording(const std::string& path) {
     EXPECT_TRUE(info.depth_camera.distortion.IsZero());
     EXPECT_TRUE(info.T_colour_depth.isApprox(ExpectedTransform(), 1e-12));
     EXPECT_EQ(info.depth_camera.depth_scale, 1000);
+    EXPECT_FALSE(info.depth_in_m);
     EXPECT_TRUE(info.camera_known);
     EXPECT_TRUE(info.warnings.empty()) << info.warnings.front();
     EXPECT_NEAR(info.fps, 10, 1e-6);
@@ -79,6 +80,7 @@ TEST(RosRecording, ReadsDepthCompressedAsRvl) {
     RecordingResult recording = OpenRosRecording(folder.Path("floats.db3"), kRosGap_s);
     ASSERT_TRUE(recording.ok()) << recording.message();
     EXPECT_EQ(recording.value()->info().depth_camera.depth_scale, 5000);
+    EXPECT_TRUE(recording.value()->info().depth_in_m);
     Image<std::uint16_t> depth;
     ColourImage colour;
     ASSERT_TRUE(recording.value()->Load(2, depth, colour).ok());
@@ -107,6 +109,7 @@ TEST(RosRecording, DepthInMetresIsRegisteredWhereTheFramesAreOne) {
     EXPECT_TRUE(info.T_colour_depth.isApprox(Eigen::Isometry3d::Identity()));
     EXPECT_EQ(info.colour_camera.pinhole, info.depth_camera.pinhole);
     EXPECT_EQ(info.depth_camera.depth_scale, 5000);
+    EXPECT_TRUE(info.depth_in_m);
     Image<std::uint16_t> depth;
     ColourImage colour;
     ASSERT_TRUE(recording.value()->Load(3, depth, colour).ok());

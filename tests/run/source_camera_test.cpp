@@ -174,6 +174,26 @@ TEST(OpenCheckedSource, EvensOutDarkCorners) {
         EXPECT_NEAR(frame.colour(u, v).r, even.colour(u, v).r, 4) << u << ' ' << v;
 }
 
+TEST(OpenCheckedSource, SaysWhichCameraItAssumesForALog) {
+    const TempFolder folder;
+    RunRequest request;
+    request.source = folder / "a.klg";
+    std::ofstream log(request.source, std::ios::binary);
+    const std::int32_t count = 1, bytes[] = {640 * 480 * 2, 0};  // depth, and no colour
+    const std::int64_t stamp_us = 0;
+    log.write(reinterpret_cast<const char*>(&count), sizeof(count));
+    log.write(reinterpret_cast<const char*>(&stamp_us), sizeof(stamp_us));
+    log.write(reinterpret_cast<const char*>(bytes), sizeof(bytes));
+    log << std::string(static_cast<std::size_t>(bytes[0]), '\4');
+    log.close();
+    const Result<CheckedSource> checked = OpenCheckedSource(request, RunConfig());
+    ASSERT_TRUE(checked.ok()) << checked.message();
+    EXPECT_EQ(checked.value().messages,
+              std::vector<std::string>{
+                  "no camera.yaml, and the focal length cannot be estimated from this recording: "
+                  "assuming a Kinect's focal length, fx 528.0"});
+}
+
 TEST(OpenCheckedSource, TakesTheErrorsFromDepth) {
     const TempFolder folder;
     std::vector<Frame> frames;
