@@ -109,7 +109,7 @@ const BlockMap& LiveTracking::MapToTrackIn() const {
 void LiveTracking::TakeSettings() {
     ViewerSettings settings;
     if (settings_.viewer == nullptr || !settings_.viewer->settings.TryPop(settings)) return;
-    state_->life.stage().Apply(settings);
+    links_.notices.Tell(state_->life.stage().Apply(settings));
     links_.show_prediction.store(settings.show_prediction);
     state_->labels = settings.labels;
     if (std::exchange(state_->detector_choice, settings.detector_choice) !=

@@ -137,7 +137,7 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
 }
 
 void LockstepEngine::Apply(const ViewerSettings& settings) {
-    tracking_.stage().Apply(settings);
+    notices_.Tell(tracking_.stage().Apply(settings));
     mapping_.Apply(settings.labels);
     loops_on_ = settings.loops.value_or(true);
     tracking_.SetSeeking(loops_on_);

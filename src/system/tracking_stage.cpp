@@ -24,6 +24,7 @@ Integrator::View FusionView(const TrackResult& track, const PreparedFrame& prepa
 TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& camera,
                              Backend* device)
     : config_(config),
+      planned_depth_m_(config.frame.max_depth_m),
       camera_(camera),
       motion_(config.motion),
       motion_before_(config.motion),

@@ -93,7 +93,8 @@ class TrackingStage {
     void SetFusing(bool on) { fusing_ = on; }
     // From now on nothing is fused, whatever the settings.
     void OnlyTrack() { only_track_ = true; }
-    void Apply(const ViewerSettings& settings);
+    // Returns a message for the user, usually empty.
+    std::string Apply(const ViewerSettings& settings);
     // Forgets the trajectory but keeps the settings. The next frame starts a new world.
     void Reset();
     // The next frame starts a new part of the map: its camera is there. How well frames usually fit
@@ -122,6 +123,9 @@ class TrackingStage {
     bool Fuses(bool first) const { return !only_track_ && (fusing_ || first); }
 
     PipelineConfig config_;
+    // As configured. With a memory limit, what stays in memory is planned for this depth.
+    double planned_depth_m_;
+    bool told_depth_ = false;
     PinholeCamera camera_;
     Eigen::Isometry3d T_world_start_ = Eigen::Isometry3d::Identity();  // of the first frame
     MotionModel motion_, motion_before_;  // after and before the last frame
