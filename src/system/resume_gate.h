@@ -13,8 +13,8 @@ class ResumeGate {
     explicit ResumeGate(double max_gap_s) : max_gap_s_(max_gap_s) {}
 
     // Call before the first frame. `saved` is a saved state of the tracking stage. If it is
-    // invalid, or has no pose, the stage starts at the last pose. Without a last pose it starts a
-    // new world and the gate stays open.
+    // invalid, or has no pose, the stage starts at the last pose; if that was corrected since, the
+    // stage moves there. Without a last pose it starts a new world and the gate stays open.
     void Begin(std::span<const std::uint8_t> saved, const std::optional<StampedPose>& last,
                bool gated, TrackingStage& tracking);
     // A new world: opens the gate.

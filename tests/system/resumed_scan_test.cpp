@@ -108,6 +108,28 @@ TEST(ResumeGate, AStateWithoutAPoseStartsAtTheScansLast) {
     EXPECT_EQ(resumed.last()->T_world_camera.matrix(), last.T_world_camera.matrix());
 }
 
+// The last correction came after the state was saved.
+TEST(ResumeGate, AStateFromBeforeACorrectionMovesToTheScansLastPose) {
+    const Eigen::Isometry3d T_saved(Eigen::Translation3d(1, 2, 3));
+    TrackingStage ended({}, testing_support::SmallCamera());
+    ended.StartAt({3.5, T_saved});
+    Bytes saved;
+    StateWriter state(saved);
+    ended.SaveState(state);
+    Eigen::Isometry3d T_corrected = T_saved * Eigen::Translation3d(0.3, 0, -0.1);
+    T_corrected.rotate(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY()));
+    // One that differs by rounding is kept as it is; of another frame's nothing is known.
+    const Eigen::Isometry3d T_rounded = T_saved * Eigen::Translation3d(1e-12, 0, 0);
+    for (const auto& [last, expected] : {std::pair(StampedPose{3.5, T_corrected}, T_corrected),
+                                         std::pair(StampedPose{3.5, T_rounded}, T_saved),
+                                         std::pair(StampedPose{3.4, T_corrected}, T_saved)}) {
+        TrackingStage resumed({}, testing_support::SmallCamera());
+        ResumeGate(0.5).Begin(saved, last, false, resumed);
+        ASSERT_TRUE(resumed.last().has_value());
+        EXPECT_LT((resumed.last()->T_world_camera.matrix() - expected.matrix()).norm(), 1e-13);
+    }
+}
+
 TEST_F(Scan, WhatContradictsTheFileIsRefusedByItsKey) {
     Run(false, New(), {.count = 4});
     ConfigParameters parameters;
