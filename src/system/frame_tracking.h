@@ -17,7 +17,8 @@ namespace tessera {
 struct TrackingResume {
     Bytes state;  // TrackingStage::SaveState
     std::optional<StampedPose> last;
-    double last_stamp_s = 0;
+    double last_seen_s = 0;  // when the camera was tracked last
+    bool lost = false;       // it was not tracked in the last frame
     bool only_localise = false;
     int parts = 0;  // places for parts that are taken already
 

@@ -19,7 +19,7 @@ LiveTracking::State::State(const Settings& settings, FramePlan plan)
       search(SearchFor(settings)) {
     if (!settings.resume) return;
     life.Resume(*settings.resume);
-    search.Resume(settings.resume->last_stamp_s);
+    search.Resume(settings.resume->last_seen_s, settings.resume->lost);
 }
 
 LiveTracking::LiveTracking(Settings settings, FramePlan plan, LiveLinks& links,

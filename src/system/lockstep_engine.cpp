@@ -36,7 +36,7 @@ Status LockstepEngine::StartScan(ScanPlan plan) {
     }
     Status status = mapping_.StartScan(std::move(plan));
     if (auto memory = mapping_.TakeLoops(); memory && loops_)
-        loops_->Resume(std::move(*memory), resume.last_stamp_s);
+        loops_->Resume(std::move(*memory), resume.last_seen_s, resume.lost);
     return status;
 }
 

@@ -44,7 +44,7 @@ class LostCamera {
         const FrameReport& report = tracked.report;
         started_ = started_ || report.first;
         if (std::exchange(resumed_, false))
-            lost_ = std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
+            lost_ = lost_ || std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
         if (report.first) BackOnTrack(report.stamp_s);
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) return report.tracked() ? JudgeTracked(report) : Verdict::kTracking;
@@ -62,10 +62,11 @@ class LostCamera {
         return Verdict::kFoundAgain;
     }
 
-    // An earlier scan is resumed. The camera counts as lost unless the next frame follows soon
-    // after this time.
-    void Resume(double last_seen_s) {
+    // An earlier scan is resumed, in which the camera was tracked last at this time. It counts as
+    // lost unless the next frame follows soon after that. `lost`: it was when the scan ended.
+    void Resume(double last_seen_s, bool lost = false) {
         last_seen_s_ = last_seen_s;
+        lost_ = lost;
         started_ = resumed_ = true;
     }
 

@@ -71,6 +71,17 @@ TEST_F(CameraSearchTest, ALostOneIsAskedForOnceAtATime) {
     EXPECT_EQ(search_.AfterTracking(frame_, true).question, Question::kNone);
 }
 
+// A scan that ended while the camera was lost is resumed.
+TEST_F(CameraSearchTest, OneThatWasLostWhenTheScanEndedIsNotKnownByTheNextFrame) {
+    for (const bool lost : {false, true}) {
+        CameraSearch search{LoopConfig{}, 0.5, kSearchCamera};
+        search.Resume(100, lost);
+        See(100.1, 0).report.track.inlier_fraction = 0.4;
+        EXPECT_EQ(search.AfterTracking(frame_, true).lost, lost);
+        EXPECT_FALSE(search.AfterTracking(See(100.2, 0), true).lost);
+    }
+}
+
 // Live: the answer comes between two frames.
 TEST_F(CameraSearchTest, WhereItCannotHaveGotToASecondViewDecides) {
     LoseIt();

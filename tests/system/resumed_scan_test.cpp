@@ -10,6 +10,7 @@
 #include "optimize/scan_parts.h"
 #include "run/open_source.h"
 #include "support/box_room_source.h"
+#include "system/frame_tracking.h"
 #include "system/resume_gate.h"
 #include "system/scan_fixture.h"
 #include "system/scan_stage.h"
@@ -128,6 +129,23 @@ TEST(ResumeGate, AStateFromBeforeACorrectionMovesToTheScansLastPose) {
         ASSERT_TRUE(resumed.last().has_value());
         EXPECT_LT((resumed.last()->T_world_camera.matrix() - expected.matrix()).norm(), 1e-13);
     }
+}
+
+// The clock of a loss starts with the last frame that was tracked, not with the last one.
+TEST(TrackingResume, TellsWhenTheCameraWasSeenLast) {
+    ScanPlan plan;
+    ScanContent& scan = plan.resumed.emplace();
+    for (const double stamp_s : {10.0, 14.0}) {
+        PathRecord record;
+        record.stamp_s = scan.progress.last_stamp_s = stamp_s;
+        record.status = stamp_s < 12 ? TrackStatus::kPoor : TrackStatus::kLost;
+        scan.path.push_back(record);
+    }
+    EXPECT_EQ(TrackingResume::Of(plan).last_seen_s, 10);
+    EXPECT_TRUE(TrackingResume::Of(plan).lost);
+    scan.path.back().status = TrackStatus::kPoor;
+    EXPECT_EQ(TrackingResume::Of(plan).last_seen_s, 14);
+    EXPECT_FALSE(TrackingResume::Of(plan).lost);
 }
 
 TEST_F(Scan, WhatContradictsTheFileIsRefusedByItsKey) {
