@@ -52,7 +52,8 @@ class FrameTracking {
     // A frame: first selects its method, which decides what map it needs, then tracks.
     void Begin(const Frame& frame) {
         plan_.Select(frame, stage_);
-        if (watch_.anywhere() && may_part_ && seeking_ && parts_ < kMostParts) BeginPart();
+        if (watch_.anywhere() && may_part_ && seeking_ && stage_.fusing() && parts_ < kMostParts)
+            BeginPart();
     }
     void Track(const Frame& frame, const BlockMap& map, TrackedFrame& tracked) {
         plan_.Track(frame, map, stage_, tracked);

@@ -91,6 +91,7 @@ class TrackingStage {
     void KeepImages() { keep_images_ = true; }
     // Off: frames are tracked but not fused. The first is always fused.
     void SetFusing(bool on) { fusing_ = on; }
+    bool fusing() const { return fusing_; }
     // From now on nothing is fused, whatever the settings.
     void OnlyTrack() { only_track_ = true; }
     // Returns a message for the user, usually empty.
