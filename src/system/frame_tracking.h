@@ -41,7 +41,7 @@ class FrameTracking {
     // Call before the first frame.
     void Resume(const TrackingResume& resume) {
         parts_ = resume.parts;
-        gate_.Begin(resume.state, resume.last, !loops_, stage_);
+        gate_.Begin(resume.state, resume.last, stage_);
         if (!resume.only_localise) return;
         stage_.OnlyTrack();
         may_part_ = false;
@@ -57,6 +57,7 @@ class FrameTracking {
     }
     void Track(const Frame& frame, const BlockMap& map, TrackedFrame& tracked) {
         plan_.Track(frame, map, stage_, tracked);
+        if (loops_ && !frame.colour.empty()) gate_.Open();  // it is found by appearance
         gate_.AfterTracking(frame, stage_, tracked);
         tracked.report.begins_part = parts_ > 0 && tracked.report.first;
         if (tracked.report.begins_part) tracked.report.warning = kPartBegins;

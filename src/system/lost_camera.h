@@ -43,6 +43,7 @@ class LostCamera {
     Verdict Judge(const TrackedFrame& tracked) {
         const FrameReport& report = tracked.report;
         started_ = started_ || report.first;
+        coloured_ = coloured_ || tracked.prepared.has_colour;
         if (std::exchange(resumed_, false))
             lost_ = lost_ || std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
         if (report.first) BackOnTrack(report.stamp_s);
@@ -52,8 +53,8 @@ class LostCamera {
         // If it has been lost for long, a fit alone is not enough: another place may fit, too.
         const bool lately = std::abs(report.stamp_s - last_seen_s_) <= max_gap_s_;
         const bool reached = CanReach({report.stamp_s, report.track.T_world_camera});
-        const bool fits =
-            FitsWell(report.track) && (lately || reached || !tracked.prepared.has_colour);
+        // A camera that shows no colours is never found by appearance.
+        const bool fits = FitsWell(report.track) && (lately || reached || !coloured_);
         const bool there = FitsCompletely(report.track) && reached;
         if (!fits && !there) return Verdict::kLost;
         // What the view leaves open is as it was when the camera was relocalised.
@@ -160,6 +161,7 @@ class LostCamera {
     std::optional<double> drifted_since_s_;
     bool started_ = false, lost_ = false, resumed_ = false;
     bool relocalised_ = false;
+    bool coloured_ = false;  // some frame had colour
 };
 
 inline constexpr const char* kPoseUnconfirmed =

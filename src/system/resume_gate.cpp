@@ -14,7 +14,7 @@ bool Differ(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 }  // namespace
 
 void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<StampedPose>& last,
-                       bool gated, TrackingStage& tracking) {
+                       TrackingStage& tracking) {
     if (!last) return;
     StateReader state(saved);
     // A part of the scan that had just begun has no pose yet, and must not begin again where the
@@ -26,7 +26,7 @@ void ResumeGate::Begin(std::span<const std::uint8_t> saved, const std::optional<
         tracking.Move(last->T_world_camera * loaded.T_world_camera.inverse());
     last_stamp_s_ = last->stamp_s;
     T_world_last_ = last->T_world_camera;
-    closed_ = first_ = gated;
+    closed_ = first_ = true;
 }
 
 bool ResumeGate::IsThere(const TrackResult& track) const {
@@ -49,8 +49,8 @@ void ResumeGate::AfterTracking(const Frame& frame, TrackingStage& tracking, Trac
         report.warning = "the scan continues where it ended";
     } else if (report.tracked()) {
         tracking.RejectPose(
-            "the camera is not where the scan ended: show it what it saw last; a scan with "
-            "--loop-closure on can continue at any place it has seen",
+            "the camera is not where the scan ended: show it what it saw last; with colour and "
+            "--loop-closure on a scan can continue at any place it has seen",
             tracked);
     }
 }

@@ -82,6 +82,19 @@ TEST_F(CameraSearchTest, OneThatWasLostWhenTheScanEndedIsNotKnownByTheNextFrame)
     }
 }
 
+// A single frame without colour does not make it one that can be found by its depth alone.
+TEST_F(CameraSearchTest, LostForLongItIsFoundByItsFitOnlyIfItNeverShowsColours) {
+    for (const bool colour : {false, true}) {
+        CameraSearch search{LoopConfig{}, 0.5, kSearchCamera};
+        SeeFirst(100, 0).prepared.has_colour = colour;
+        EXPECT_FALSE(search.AfterTracking(frame_, true).lost);
+        See(101, 0, TrackStatus::kLost).prepared.has_colour = colour;
+        EXPECT_TRUE(search.AfterTracking(frame_, true).lost);
+        See(110, 9).prepared.has_colour = false;
+        EXPECT_EQ(search.AfterTracking(frame_, true).lost, colour);
+    }
+}
+
 // Live: the answer comes between two frames.
 TEST_F(CameraSearchTest, WhereItCannotHaveGotToASecondViewDecides) {
     LoseIt();

@@ -45,5 +45,22 @@ TEST_F(FrameTrackingTest, BeginsNoPartWhileNothingIsAddedToTheMap) {
     EXPECT_FALSE(tracking.stage().last()) << "a part begins";
 }
 
+// It cannot be found by appearance: the gate guards it, as it does without loop closure.
+TEST_F(FrameTrackingTest, AResumedCameraWithoutColourMustBeWhereTheScanEnded) {
+    for (const bool colour : {false, true}) {
+        Frame frame = RoomFrame(0);
+        frame.stamp_s = 20;
+        if (!colour) frame.colour = {};
+        const Eigen::Isometry3d T_elsewhere(Eigen::Translation3d(3, 0, 0));
+        FrameTracking tracking(config_, SmallCamera(), nullptr,
+                               FramePlan({}, {{20, T_elsewhere}}, "poses"));
+        TrackingResume resume;
+        resume.last = StampedPose{3.5, Eigen::Isometry3d::Identity()};
+        tracking.Resume(resume);
+        tracking.Track(frame, map_, tracked_);
+        EXPECT_EQ(tracked_.report.tracked(), colour);
+    }
+}
+
 }  // namespace
 }  // namespace tessera

@@ -103,7 +103,7 @@ TEST(ResumeGate, AStateWithoutAPoseStartsAtTheScansLast) {
     StateWriter state(saved);
     ended.SaveState(state);
     TrackingStage resumed({}, testing_support::SmallCamera());
-    ResumeGate(0.5).Begin(saved, last, false, resumed);
+    ResumeGate(0.5).Begin(saved, last, resumed);
     ASSERT_TRUE(resumed.last().has_value());
     EXPECT_EQ(resumed.last()->stamp_s, 3.5);
     EXPECT_EQ(resumed.last()->T_world_camera.matrix(), last.T_world_camera.matrix());
@@ -125,7 +125,7 @@ TEST(ResumeGate, AStateFromBeforeACorrectionMovesToTheScansLastPose) {
                                          std::pair(StampedPose{3.5, T_rounded}, T_saved),
                                          std::pair(StampedPose{3.4, T_corrected}, T_saved)}) {
         TrackingStage resumed({}, testing_support::SmallCamera());
-        ResumeGate(0.5).Begin(saved, last, false, resumed);
+        ResumeGate(0.5).Begin(saved, last, resumed);
         ASSERT_TRUE(resumed.last().has_value());
         EXPECT_LT((resumed.last()->T_world_camera.matrix() - expected.matrix()).norm(), 1e-13);
     }
