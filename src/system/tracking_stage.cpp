@@ -100,7 +100,9 @@ void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
             report.track.reason = "the pose is not a number";
         }
     }
-    report.track.colour_rejected = !frame.colour.empty() && !prepared.has_colour;
+    // An image that is shown again is as wrong as it was.
+    if (!frozen_colour_.repeats()) colour_wrong_ = !frame.colour.empty() && !prepared.has_colour;
+    report.track.colour_rejected = colour_wrong_ || frozen_colour_.hangs();
     report.first = report.first && report.tracked();
     if (report.tracked())
         motion_.Add({frame.stamp_s, report.track.T_world_camera},

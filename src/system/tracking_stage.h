@@ -134,6 +134,7 @@ class TrackingStage {
     // Not part of the saved state: they are soon known again.
     UsualFit usual_fit_;
     FrozenColour frozen_colour_;
+    bool colour_wrong_ = false;  // of the last image that was no repetition
     MovingDetector moving_;
     BackendOf backend_;
     Trackers trackers_;

@@ -27,6 +27,7 @@ void TrackingStage::Reset() {
     BeginPart(Eigen::Isometry3d::Identity());
     usual_fit_.Clear();
     frozen_colour_.Clear();
+    colour_wrong_ = false;
 }
 
 void TrackingStage::BeginPart(const Eigen::Isometry3d& T_world_start) {
