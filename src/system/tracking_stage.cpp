@@ -50,6 +50,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     const std::shared_ptr<const MovingMask> expected =
         given ? nullptr : ExpectMoving(frame.stamp_s);
     backend_->Prepare(frame, config_.frame, expected.get(), keep_images_, prepared);
+    prepared.limit_m = config_.frame.max_depth_m;
     if (config_.trackers.photometric.doubt_contrast > 0 && frozen_colour_.Repeats(frame))
         ForgetColour(prepared);
     report.prepare_ms = watch.LapMs();

@@ -75,6 +75,8 @@ TEST(Pipeline, TheLargestDepthIsNotRaisedWhereMemoryIsLimited) {
             EXPECT_EQ(tracking.Apply(settings).empty(), !told) << max_depth_m;
             TrackedFrame tracked;
             tracking.Track(frame, map, std::nullopt, tracked);
+            EXPECT_EQ(tracked.prepared.limit_m,
+                      limit_mb > 0 ? std::min(max_depth_m, 3.0) : max_depth_m);
             return tracked.report.valid_depth_fraction;
         };
         EXPECT_EQ(seen(9, limit_mb > 0), limit_mb > 0 ? 0 : 1);
