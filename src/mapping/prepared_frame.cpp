@@ -201,6 +201,18 @@ void ForgetColour(PreparedFrame& p) {
         std::fill_n(reduced.intensity.data(), reduced.intensity.size(), -1.0f);
 }
 
+Frame WithoutLeftOut(const Frame& frame, const PreparedFrame& prepared,
+                     const PreparedFrame::Config& config) {
+    Frame rest = prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame;
+    if (prepared.limit_m <= 0 || prepared.limit_m >= config.max_depth_m) return rest;
+    const auto limit_m = static_cast<float>(prepared.limit_m),
+               offset_per_m = static_cast<float>(config.disparity_offset_per_m);
+    std::replace_if(
+        rest.depth_m.data(), rest.depth_m.data() + rest.depth_m.size(),
+        [&](float z_m) { return CorrectedDepth(z_m, offset_per_m) > limit_m; }, 0.0f);
+    return rest;
+}
+
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& p) {
     p.moving = std::move(moving);
     if (p.moving->gone_tiles == 0) return;

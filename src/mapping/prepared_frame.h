@@ -43,6 +43,9 @@ struct PreparedFrame {
     std::int64_t measured_pixels = 0;  // pixels with any depth, in range or not
     double coherent_fraction = 0;      // fraction of adjacent valid pixels within 5 % of each other
     float nearest_m = 0, farthest_m = 0;  // over the valid pixels
+    // During a run: the largest depth that the user wants in the map, for this frame; 0: as
+    // configured.
+    double limit_m = 0;
     // Moving pixels have no depth above; null if nothing moves. Map surfaces nearer than gone_m
     // (same size as the image) have disappeared; empty if none has.
     std::shared_ptr<const MovingMask> moving;
@@ -66,6 +69,11 @@ void RemaskDepth(const Frame& frame, const PreparedFrame::Config& config, Prepar
 void ForgetColour(PreparedFrame& prepared);
 // Attaches a mask to a frame that was prepared without the depth of moving pixels.
 void SetMoving(std::shared_ptr<const MovingMask> moving, PreparedFrame& prepared);
+
+// The frame without the depth that is not to be in the map: of moving pixels, and beyond limit_m
+// where that is less than the configured limit.
+Frame WithoutLeftOut(const Frame& frame, const PreparedFrame& prepared,
+                     const PreparedFrame::Config& config);
 
 // Statistics of a frame's pixels that preparation computes besides the images.
 struct FrameCounts {

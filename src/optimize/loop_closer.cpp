@@ -85,6 +85,9 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     Keyframes& keyframes = graph_.keyframes();
     Follow(T_map_camera);
     fused_since_copy_ |= fused;
+    // A corrected map may hold what this one does. It was left out of frames with a lower limit.
+    settings_.preparation.max_depth_m =
+        std::max(settings_.preparation.max_depth_m, prepared.limit_m);
     // Where the map holds a place twice, tracking may jump from one surface to the other. A new
     // keyframe starts there, so that the frames on both sides can move apart. If the map is known
     // to be like this, the keyframe is linked at the pose where the camera was expected.
@@ -101,8 +104,8 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     // Detections belong to one image.
     const bool alone = corrector_.labels().has_value();
     const Status stored =
-        frames_.Add(prepared.moving ? WithoutMoving(*prepared.moving, frame) : frame, last.id,
-                    keyframe, alone, graph_.passages().back().T_keyframe_camera, view);
+        frames_.Add(WithoutLeftOut(frame, prepared, settings_.preparation), last.id, keyframe,
+                    alone, graph_.passages().back().T_keyframe_camera, view);
     std::string news;
     if (keyframe && stored.ok()) {
         if (config_.overlaps) graph_.overlaps().Find(keyframes, last.id, true);

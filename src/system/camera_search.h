@@ -29,7 +29,7 @@ class CameraSearch {
         : camera_(config, max_gap_s), place_(camera) {}
 
     // See LostCamera.
-    void Resume(double last_seen_s) { camera_.Resume(last_seen_s); }
+    void Resume(double last_seen_s, bool lost) { camera_.Resume(last_seen_s, lost); }
     // The map was moved.
     void Move(const Eigen::Isometry3d& T_new_old) {
         camera_.Move(T_new_old);

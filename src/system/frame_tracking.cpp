@@ -6,8 +6,10 @@ namespace tessera {
 
 TrackingResume TrackingResume::Of(const ScanPlan& plan) {
     const ScanContent& scan = *plan.resumed;
-    TrackingResume resume{scan.tracking, scan.LastPose(), scan.progress.last_stamp_s,
-                          plan.only_localise()};
+    TrackingResume resume{.state = scan.tracking, .last = scan.LastPose()};
+    if (resume.last) resume.last_seen_s = resume.last->stamp_s;
+    resume.lost = !scan.path.empty() && !scan.path.back().tracked();
+    resume.only_localise = plan.only_localise();
     const auto taken = [&scan](int part) {
         return std::ranges::any_of(scan.keyframes, [part](const Keyframe& keyframe) {
             return InOnePart(keyframe.T_map_camera, PartStart(part));

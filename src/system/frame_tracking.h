@@ -17,7 +17,8 @@ namespace tessera {
 struct TrackingResume {
     Bytes state;  // TrackingStage::SaveState
     std::optional<StampedPose> last;
-    double last_stamp_s = 0;
+    double last_seen_s = 0;  // when the camera was tracked last
+    bool lost = false;       // it was not tracked in the last frame
     bool only_localise = false;
     int parts = 0;  // places for parts that are taken already
 
@@ -40,7 +41,7 @@ class FrameTracking {
     // Call before the first frame.
     void Resume(const TrackingResume& resume) {
         parts_ = resume.parts;
-        gate_.Begin(resume.state, resume.last, !loops_, stage_);
+        gate_.Begin(resume.state, resume.last, stage_);
         if (!resume.only_localise) return;
         stage_.OnlyTrack();
         may_part_ = false;
@@ -51,10 +52,12 @@ class FrameTracking {
     // A frame: first selects its method, which decides what map it needs, then tracks.
     void Begin(const Frame& frame) {
         plan_.Select(frame, stage_);
-        if (watch_.anywhere() && may_part_ && seeking_ && parts_ < kMostParts) BeginPart();
+        if (watch_.anywhere() && may_part_ && seeking_ && stage_.fusing() && parts_ < kMostParts)
+            BeginPart();
     }
     void Track(const Frame& frame, const BlockMap& map, TrackedFrame& tracked) {
         plan_.Track(frame, map, stage_, tracked);
+        if (loops_ && !frame.colour.empty()) gate_.Open();  // it is found by appearance
         gate_.AfterTracking(frame, stage_, tracked);
         tracked.report.begins_part = parts_ > 0 && tracked.report.first;
         if (tracked.report.begins_part) tracked.report.warning = kPartBegins;

@@ -1,5 +1,6 @@
 #include "system/live_reading.h"
 
+#include <algorithm>
 #include <thread>
 
 #include "core/stopwatch.h"
@@ -7,22 +8,24 @@
 namespace tessera {
 namespace {
 
-using Milliseconds = std::chrono::duration<double, std::milli>;
+double SecondsOf(LiveClock::time_point time) {
+    return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
 
 }  // namespace
 
 void WaitFor(double ms) {
-    if (ms > 0) std::this_thread::sleep_for(Milliseconds(ms));
+    if (ms > 0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
 }
 
 LiveReading::LiveReading(EngineInput& input, LiveLinks& links)
-    : playback_speed_(input.config.live.playback_speed),
-      links_(links),
+    : links_(links),
       viewer_(input.viewer),
       stop_(*input.stop),
       frames_(std::move(input.source), input.selection),
       source_(frames_.info()),
       control_(input.viewer),
+      playback_(input.config.live.playback_speed),
       recorder_(source_, input.config.record, false, links.notices) {
     if (input.scan.only_localise()) control_.KeepMap(links.notices);
 }
@@ -32,12 +35,14 @@ Status LiveReading::StartRecording(const std::string& path) {
 }
 
 void LiveReading::Run(LiveTracking& tracking) {
-    while (!links_.quit.load() && !stopped_ && ReadFrame(tracking)) {
-        while (const auto command = control_.TakeCommand()) Execute(*command, tracking);
-        if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
-        stopped_ = stopped_ || stop_.load() || asked_to_stop_.load();
-    }
+    while (GoesOn() && ReadFrame(tracking)) TakeCommands(tracking);
     recorder_.Stop();
+}
+
+void LiveReading::TakeCommands(LiveTracking& tracking) {
+    while (const auto command = control_.TakeCommand()) Execute(*command, tracking);
+    if (viewer_ != nullptr) viewer_->recording.store(recorder_.recording());
+    stopped_ = stopped_ || stop_.load() || asked_to_stop_.load();
 }
 
 // Reads once from the source. Returns false at its end. While paused, a live camera's frames are
@@ -46,7 +51,7 @@ bool LiveReading::ReadFrame(LiveTracking& tracking) {
     using Kind = FrameOutcome::Kind;
     if (control_.waiting() && !source_.live) {
         RunControl::SleepBriefly();
-        first_stamp_s_.reset();
+        playback_.Restart();
         return true;
     }
     NewFrame item{links_.frames.Take(), 0, {}};
@@ -59,7 +64,7 @@ bool LiveReading::ReadFrame(LiveTracking& tracking) {
         case ReadStatus::kSkip: links_.Report(Kind::kSkipped, read.message); break;
         case ReadStatus::kWait: links_.notices.Tell(read.message); break;
         case ReadStatus::kOk:
-            if (!source_.live) WaitUntilDue(item.frame->stamp_s);
+            if (!source_.live) WaitUntilDue(item.frame->stamp_s, tracking);
             if (control_.TakeTurn()) Pass(std::move(item), tracking);
             break;
     }
@@ -78,17 +83,19 @@ void LiveReading::Pass(NewFrame frame, LiveTracking& tracking) {
     links_.to_recorder.store(recorder_.waiting());
 }
 
-// Waits until a recorded frame is as long after the first frame as it was recorded.
-void LiveReading::WaitUntilDue(double stamp_s) {
-    constexpr double kAfterAll_s = 1.0;  // no waiting for longer gaps in the stamps
-    const LiveClock::time_point now = LiveClock::now();
-    if (first_stamp_s_) {
-        const double wait_ms = 1000 * (stamp_s - *first_stamp_s_) / playback_speed_ -
-                               Milliseconds(now - first_time_).count();
-        if (std::abs(wait_ms) < 1000 * kAfterAll_s) return WaitFor(wait_ms);
+// Waits until a recorded frame is due, and until the user lets it pass.
+void LiveReading::WaitUntilDue(double stamp_s, LiveTracking& tracking) {
+    constexpr double kSlice_s = 0.1;  // a stop is not delayed by more
+    for (double wait_s = playback_.Wait_s(stamp_s, SecondsOf(LiveClock::now()));
+         wait_s > 0 && GoesOn(); wait_s -= kSlice_s) {
+        WaitFor(1000 * std::min(wait_s, kSlice_s));
+        TakeCommands(tracking);
     }
-    first_stamp_s_ = stamp_s;
-    first_time_ = now;
+    while (control_.waiting() && GoesOn()) {
+        RunControl::SleepBriefly();
+        playback_.Restart();
+        TakeCommands(tracking);
+    }
 }
 
 void LiveReading::Execute(const ViewerCommand& command, LiveTracking& tracking) {

@@ -5,6 +5,7 @@
 #include "io/selected_frames.h"
 #include "system/live_links.h"
 #include "system/live_tracking.h"
+#include "system/playback_clock.h"
 #include "system/recorder_thread.h"
 #include "system/run_control.h"
 
@@ -31,21 +32,21 @@ class LiveReading {
     bool ReadFrame(LiveTracking& tracking);
     void Pass(NewFrame frame, LiveTracking& tracking);
     void Execute(const ViewerCommand& command, LiveTracking& tracking);
-    void WaitUntilDue(double stamp_s);
+    void WaitUntilDue(double stamp_s, LiveTracking& tracking);
+    void TakeCommands(LiveTracking& tracking);
+    bool GoesOn() const { return !links_.quit.load() && !stopped_; }
 
-    const double playback_speed_;
     LiveLinks& links_;
     ViewerLink* const viewer_;
     const std::atomic<bool>& stop_;
     SelectedFrames frames_;
     const SourceInfo source_;
     RunControl control_;
+    PlaybackClock playback_;
     RecorderThread recorder_;
     Status status_;
     bool stopped_ = false;
     std::atomic<bool> asked_to_stop_{false};
-    std::optional<double> first_stamp_s_;
-    LiveClock::time_point first_time_;
 };
 
 }  // namespace tessera

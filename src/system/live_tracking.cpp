@@ -19,7 +19,7 @@ LiveTracking::State::State(const Settings& settings, FramePlan plan)
       search(SearchFor(settings)) {
     if (!settings.resume) return;
     life.Resume(*settings.resume);
-    search.Resume(settings.resume->last_stamp_s);
+    search.Resume(settings.resume->last_seen_s, settings.resume->lost);
 }
 
 LiveTracking::LiveTracking(Settings settings, FramePlan plan, LiveLinks& links,
@@ -109,7 +109,7 @@ const BlockMap& LiveTracking::MapToTrackIn() const {
 void LiveTracking::TakeSettings() {
     ViewerSettings settings;
     if (settings_.viewer == nullptr || !settings_.viewer->settings.TryPop(settings)) return;
-    state_->life.stage().Apply(settings);
+    links_.notices.Tell(state_->life.stage().Apply(settings));
     links_.show_prediction.store(settings.show_prediction);
     state_->labels = settings.labels;
     if (std::exchange(state_->detector_choice, settings.detector_choice) !=

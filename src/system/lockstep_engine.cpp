@@ -36,7 +36,7 @@ Status LockstepEngine::StartScan(ScanPlan plan) {
     }
     Status status = mapping_.StartScan(std::move(plan));
     if (auto memory = mapping_.TakeLoops(); memory && loops_)
-        loops_->Resume(std::move(*memory), resume.last_stamp_s);
+        loops_->Resume(std::move(*memory), resume.last_seen_s, resume.lost);
     return status;
 }
 
@@ -137,7 +137,7 @@ bool LockstepEngine::TakeMessage(FrameOutcome& outcome) {
 }
 
 void LockstepEngine::Apply(const ViewerSettings& settings) {
-    tracking_.stage().Apply(settings);
+    notices_.Tell(tracking_.stage().Apply(settings));
     mapping_.Apply(settings.labels);
     loops_on_ = settings.loops.value_or(true);
     tracking_.SetSeeking(loops_on_);

@@ -38,10 +38,10 @@ LoopStage::LoopStage(const LoopConfig& config, const PipelineConfig& pipeline,
       closer_(config, FieldSettingsOf(pipeline, source.camera), source.depth_units_per_m,
               std::move(labels), std::move(make_pager)) {}
 
-void LoopStage::Resume(LoopCloser::Memory memory, double last_stamp_s) {
+void LoopStage::Resume(LoopCloser::Memory memory, double last_seen_s, bool lost) {
     closer_.Resume(std::move(memory));
     journal_.Begin(closer_);
-    search_.Resume(last_stamp_s);
+    search_.Resume(last_seen_s, lost);
 }
 
 void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingStage& tracking,

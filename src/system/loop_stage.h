@@ -23,9 +23,9 @@ class LoopStage {
     LoopStage(const LoopConfig& config, const PipelineConfig& pipeline, const SourceInfo& source,
               std::optional<LoopCloser::Labels> labels, LoopCloser::MakePager make_pager);
 
-    // Call before the first frame to continue an earlier run's loop closure. The camera counts as
-    // lost unless the first frame follows soon after `last_stamp_s`.
-    void Resume(LoopCloser::Memory memory, double last_stamp_s);
+    // Call before the first frame to continue an earlier run's loop closure. `last_seen_s`, `lost`:
+    // see LostCamera.
+    void Resume(LoopCloser::Memory memory, double last_seen_s, bool lost);
 
     // Off: neither closes loops nor looks for a lost camera.
     void Switch(bool on) {

@@ -43,8 +43,9 @@ class LostCamera {
     Verdict Judge(const TrackedFrame& tracked) {
         const FrameReport& report = tracked.report;
         started_ = started_ || report.first;
+        coloured_ = coloured_ || tracked.prepared.has_colour;
         if (std::exchange(resumed_, false))
-            lost_ = std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
+            lost_ = lost_ || std::abs(report.stamp_s - last_seen_s_) > max_gap_s_;
         if (report.first) BackOnTrack(report.stamp_s);
         lost_ = (lost_ || !report.tracked()) && started_ && !report.first;
         if (!lost_) return report.tracked() ? JudgeTracked(report) : Verdict::kTracking;
@@ -52,8 +53,8 @@ class LostCamera {
         // If it has been lost for long, a fit alone is not enough: another place may fit, too.
         const bool lately = std::abs(report.stamp_s - last_seen_s_) <= max_gap_s_;
         const bool reached = CanReach({report.stamp_s, report.track.T_world_camera});
-        const bool fits =
-            FitsWell(report.track) && (lately || reached || !tracked.prepared.has_colour);
+        // A camera that shows no colours is never found by appearance.
+        const bool fits = FitsWell(report.track) && (lately || reached || !coloured_);
         const bool there = FitsCompletely(report.track) && reached;
         if (!fits && !there) return Verdict::kLost;
         // What the view leaves open is as it was when the camera was relocalised.
@@ -62,10 +63,11 @@ class LostCamera {
         return Verdict::kFoundAgain;
     }
 
-    // An earlier scan is resumed. The camera counts as lost unless the next frame follows soon
-    // after this time.
-    void Resume(double last_seen_s) {
+    // An earlier scan is resumed, in which the camera was tracked last at this time. It counts as
+    // lost unless the next frame follows soon after that. `lost`: it was when the scan ended.
+    void Resume(double last_seen_s, bool lost = false) {
         last_seen_s_ = last_seen_s;
+        lost_ = lost;
         started_ = resumed_ = true;
     }
 
@@ -159,6 +161,7 @@ class LostCamera {
     std::optional<double> drifted_since_s_;
     bool started_ = false, lost_ = false, resumed_ = false;
     bool relocalised_ = false;
+    bool coloured_ = false;  // some frame had colour
 };
 
 inline constexpr const char* kPoseUnconfirmed =

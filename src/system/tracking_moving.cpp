@@ -26,10 +26,11 @@ void TrackingStage::MaskMoving(const Frame& frame, const BlockMap& map, bool hid
             map, backend_->views());
     const bool moves = report.moving && report.moving->moving_tiles > 0;
     const MovingMask* moving = moves ? report.moving.get() : nullptr;
+    const bool colour = tracked.prepared.has_colour;
     if (moves || hidden)
         backend_->Remask(frame, config_.frame, moving, keep_images_, tracked.prepared);
     // A device prepares the whole frame again.
-    if (report.track.colour_rejected) ForgetColour(tracked.prepared);
+    if (!colour) ForgetColour(tracked.prepared);
     if (report.moving) SetMoving(report.moving, tracked.prepared);
 }
 

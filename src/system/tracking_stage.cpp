@@ -24,6 +24,7 @@ Integrator::View FusionView(const TrackResult& track, const PreparedFrame& prepa
 TrackingStage::TrackingStage(const PipelineConfig& config, const PinholeCamera& camera,
                              Backend* device)
     : config_(config),
+      planned_depth_m_(config.frame.max_depth_m),
       camera_(camera),
       motion_(config.motion),
       motion_before_(config.motion),
@@ -49,6 +50,7 @@ void TrackingStage::Track(const Frame& frame, const BlockMap& map,
     const std::shared_ptr<const MovingMask> expected =
         given ? nullptr : ExpectMoving(frame.stamp_s);
     backend_->Prepare(frame, config_.frame, expected.get(), keep_images_, prepared);
+    prepared.limit_m = config_.frame.max_depth_m;
     if (config_.trackers.photometric.doubt_contrast > 0 && frozen_colour_.Repeats(frame))
         ForgetColour(prepared);
     report.prepare_ms = watch.LapMs();
@@ -99,7 +101,9 @@ void TrackingStage::EstimatePose(const Frame& frame, const BlockMap& map,
             report.track.reason = "the pose is not a number";
         }
     }
-    report.track.colour_rejected = !frame.colour.empty() && !prepared.has_colour;
+    // An image that is shown again is as wrong as it was.
+    if (!frozen_colour_.repeats()) colour_wrong_ = !frame.colour.empty() && !prepared.has_colour;
+    report.track.colour_rejected = colour_wrong_ || frozen_colour_.hangs();
     report.first = report.first && report.tracked();
     if (report.tracked())
         motion_.Add({frame.stamp_s, report.track.T_world_camera},

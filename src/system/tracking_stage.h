@@ -91,9 +91,11 @@ class TrackingStage {
     void KeepImages() { keep_images_ = true; }
     // Off: frames are tracked but not fused. The first is always fused.
     void SetFusing(bool on) { fusing_ = on; }
+    bool fusing() const { return fusing_; }
     // From now on nothing is fused, whatever the settings.
     void OnlyTrack() { only_track_ = true; }
-    void Apply(const ViewerSettings& settings);
+    // Returns a message for the user, usually empty.
+    std::string Apply(const ViewerSettings& settings);
     // Forgets the trajectory but keeps the settings. The next frame starts a new world.
     void Reset();
     // The next frame starts a new part of the map: its camera is there. How well frames usually fit
@@ -122,6 +124,9 @@ class TrackingStage {
     bool Fuses(bool first) const { return !only_track_ && (fusing_ || first); }
 
     PipelineConfig config_;
+    // As configured. With a memory limit, what stays in memory is planned for this depth.
+    double planned_depth_m_;
+    bool told_depth_ = false;
     PinholeCamera camera_;
     Eigen::Isometry3d T_world_start_ = Eigen::Isometry3d::Identity();  // of the first frame
     MotionModel motion_, motion_before_;  // after and before the last frame
@@ -129,6 +134,7 @@ class TrackingStage {
     // Not part of the saved state: they are soon known again.
     UsualFit usual_fit_;
     FrozenColour frozen_colour_;
+    bool colour_wrong_ = false;  // of the last image that was no repetition
     MovingDetector moving_;
     BackendOf backend_;
     Trackers trackers_;

@@ -26,9 +26,21 @@ PinholeImage WithCamera(const Image<float>& image, const PreparedFrame& frame,
 }  // namespace
 
 int FinestStep(int configured, int at_vga_px, const PinholeCamera& camera) {
-    if (configured > 0) return configured;
     const double pixels = static_cast<double>(camera.width) * camera.height;
-    return std::max(2, static_cast<int>(std::lround(at_vga_px * std::sqrt(pixels / (640 * 480)))));
+    const int step_px =
+        configured > 0
+            ? configured
+            : std::max(2,
+                       static_cast<int>(std::lround(at_vga_px * std::sqrt(pixels / (640 * 480)))));
+    return std::max(1, std::min(step_px, std::min(camera.width, camera.height) / 2));
+}
+
+int LevelsThatFit(int configured, int finest_step_px, const PinholeCamera& camera) {
+    constexpr int kFewest = 6;  // pixels
+    const int side = std::min(camera.width, camera.height) / finest_step_px;
+    int levels = 1;
+    while (levels < configured && side >> levels >= kFewest) ++levels;
+    return levels;
 }
 
 PointArguments MakePointArguments(const PreparedFrame& frame, const PinholeCamera& camera,

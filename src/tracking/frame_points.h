@@ -19,8 +19,13 @@ struct DepthWeight {
 };
 
 // The pixel step of the finest level: `configured`, or for 0 the one at which an image has about as
-// many points as one of 640 x 480 pixels at the step `at_vga_px`, but at least 2.
+// many points as one of 640 x 480 pixels at the step `at_vga_px`, but at least 2. At most half of
+// the image.
 int FinestStep(int configured, int at_vga_px, const PinholeCamera& camera);
+
+// The number of levels, at least 1: `configured`, or as many as leave the coarsest image 6 pixels
+// wide and high. Each level doubles the step.
+int LevelsThatFit(int configured, int finest_step_px, const PinholeCamera& camera);
 
 // Arguments for every step-th pixel. Includes intensities, and chroma besides, only if requested
 // and if the frame has colour. Refers to the frame's images.

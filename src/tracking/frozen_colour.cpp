@@ -1,6 +1,7 @@
 #include "tracking/frozen_colour.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string_view>
 #include <type_traits>
@@ -23,14 +24,19 @@ std::size_t HashOf(const Image<Pixel>& image) {
 }  // namespace
 
 bool FrozenColour::Repeats(const Frame& frame) {
+    constexpr double kHangs_s = 0.5;
+    repeats_ = hangs_ = false;
     if (frame.colour.empty()) return false;
     const std::size_t colour = HashOf(frame.colour), depth = HashOf(frame.depth_m);
-    const bool repeats = colour == colour_ && depth != depth_;
+    const auto* const first = frame.colour.data();
+    repeats_ = colour == colour_ && depth != depth_ &&
+               std::any_of(first, first + frame.colour.size(),
+                           [&](const Rgb8& pixel) { return pixel != *first; });
     colour_ = colour;
     depth_ = depth;
-    const auto* const first = frame.colour.data();
-    return repeats && std::any_of(first, first + frame.colour.size(),
-                                  [&](const Rgb8& pixel) { return pixel != *first; });
+    if (!repeats_) new_s_ = frame.stamp_s;
+    hangs_ = repeats_ && std::abs(frame.stamp_s - new_s_) >= kHangs_s;
+    return repeats_;
 }
 
 }  // namespace tessera

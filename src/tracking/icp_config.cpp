@@ -10,8 +10,10 @@ void IcpTracker::Config::Describe(ConfigParameters& p) {
     p.Add("finest_step_px", finest_step_px, {0, 16}, "px",
           "pixel step of the finest level, in both directions, in the frame and in the predicted "
           "view; 0: 2 at 640 x 480, and in proportion at larger sizes; [D18] uses 1");
-    p.Add("levels", levels, {1, 5}, "",
-          "number of pyramid levels; each coarser level halves the images");
+    p.Add(
+        "levels", levels, {1, 5}, "",
+        "number of pyramid levels; each coarser level halves the images; fewer where the coarsest "
+        "would have less than 6 pixels on a side");
     p.Add("coarse_iterations", coarse_iterations, {1, 100}, "",
           "maximum number of Levenberg-Marquardt steps on the coarsest level");
     p.Add("middle_iterations", middle_iterations, {1, 100}, "",

@@ -37,7 +37,9 @@ IcpTracker::IcpTracker(const Config& config, const PinholeCamera& camera, const 
       predictor_(std::move(predictor)),
       own_sums_(sums != nullptr ? nullptr : std::make_unique<CpuIcpSums>()),
       sums_(sums != nullptr ? *sums : *own_sums_),
-      points_(static_cast<std::size_t>(config.levels)) {}
+      points_(static_cast<std::size_t>(LevelsThatFit(config.levels, finest_step_px_, camera))) {
+    config_.levels = static_cast<int>(points_.size());
+}
 
 TrackResult IcpTracker::Track(const TrackInput& input) {
     State state;

@@ -39,7 +39,10 @@ std::shared_ptr<const MovingMask> MovingDetector::Find(const Input& input, const
     const DepthChanges changes = moments.Compare();
     if (m.past.empty() || m.now.stamp_s - m.past.back().stamp_s >= kSpacing * config_.window_s)
         m.past.push_back(m.now);
-    if (m.hint.stamp_s == input.stamp_s) m.hint.T_world_camera = input.T_world_camera;
+    if (m.hint.stamp_s == input.stamp_s) {
+        m.hint.T_world_camera = input.T_world_camera;
+        m.hint_placed = true;
+    }
     const DepthImage hinted_m =
         m.CarriedHint(input.stamp_s, input.T_world_camera, camera_, config_.window_s);
     std::shared_ptr<MovingMask> mask;
@@ -95,7 +98,8 @@ void MovingDetector::SetHint(const MovingHint& hint, float disparity_offset_per_
     TileView& view = memory_->hint;
     view.stamp_s = hint.stamp_s;
     // If unknown, Find sets the pose.
-    view.T_world_camera = T_world_camera.value_or(Eigen::Isometry3d::Identity());
+    memory_->hint_placed = T_world_camera.has_value();
+    if (T_world_camera) view.T_world_camera = *T_world_camera;
     MakeTiles(hint.depth_m, step_, disparity_offset_per_m, view.depth_m);
 }
 

@@ -36,11 +36,13 @@ const TileView& Blurred(const TileView& view, int more, TileView& storage) {
 
 }  // namespace
 
-// A detector's hint as seen by a camera at this pose. Empty if there was none within the window.
+// A detector's hint as seen by a camera at this pose. Empty if there was none within the window, or
+// if its frame, which is another, was not tracked.
 DepthImage MovingHistory::CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,
                                       const PinholeCamera& camera, double window_s) const {
     if (hint.depth_m.empty() || std::abs(stamp_s - hint.stamp_s) > window_s) return {};
     if (stamp_s == hint.stamp_s) return hint.depth_m;
+    if (!hint_placed) return {};
     DepthImage carried_m(camera.width, camera.height);
     ReprojectMarks(hint, Marks(camera.width, camera.height, 1), T_world_camera, camera, carried_m);
     return carried_m;

@@ -37,7 +37,8 @@ struct MovingHistory {
     // Between frames that follow each other: how many times, and the sum.
     int intervals = 0;
     double intervals_s = 0;
-    TileView hint;  // depth where a detector marks something as moving; empty if nowhere
+    TileView hint;             // depth where a detector marks something as moving; empty if nowhere
+    bool hint_placed = false;  // its pose is known
 
     DepthImage CarriedHint(double stamp_s, const Eigen::Isometry3d& T_world_camera,
                            const PinholeCamera& camera, double window_s) const;

@@ -42,7 +42,9 @@ SdfTracker::SdfTracker(const Config& config, const PinholeCamera& camera, const 
       use_colour_(use_colour),
       own_sums_(sums != nullptr ? nullptr : std::make_unique<CpuSdfSums>()),
       sums_(sums != nullptr ? *sums : *own_sums_),
-      points_(static_cast<std::size_t>(config.levels)) {}
+      points_(static_cast<std::size_t>(LevelsThatFit(config.levels, finest_step_px_, camera))) {
+    config_.levels = static_cast<int>(points_.size());
+}
 
 TrackResult SdfTracker::Track(const TrackInput& input) {
     State state;
@@ -207,7 +209,9 @@ void SdfTracker::Config::Describe(ConfigParameters& p) {
     p.Add("finest_step_px", finest_step_px, {0, 16}, "px",
           "pixel step of the finest level, in both directions; 0: 3 at 640 x 480, and in "
           "proportion at other sizes, but at least 2; [B14] uses 1");
-    p.Add("levels", levels, {1, 5}, "", "number of levels; each coarser level doubles the step");
+    p.Add("levels", levels, {1, 5}, "",
+          "number of levels; each coarser level doubles the step; fewer where the coarsest would "
+          "have less than 6 points on a side");
     p.Add("coarse_iterations", coarse_iterations, {1, 100}, "",
           "maximum number of Gauss-Newton steps on each coarse level");
     p.Add("fine_iterations", fine_iterations, {1, 100}, "",

@@ -41,7 +41,10 @@ void ShutterEstimator::SaveState(StateWriter& state) const {
 
 bool ShutterEstimator::LoadState(StateReader& state) {
     constexpr double kLongest_s = 1;
-    return state.Get(estimate_) && state.Get(information_) && estimate_.norm() <= kLongest_s;
+    const bool read =
+        state.Get(estimate_) && state.Get(information_) && estimate_.norm() <= kLongest_s;
+    if (!config_.enabled) Reset();
+    return read;
 }
 
 bool ShutterEstimator::Wants(const FrameMotion& motion, double residual_scale) const {

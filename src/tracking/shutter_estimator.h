@@ -33,6 +33,7 @@ class ShutterEstimator {
     void Update(const std::vector<double>& sums, double residual_scale);
     void Reset();
     void SaveState(StateWriter& state) const;
+    // If it is not enabled, what the state has learnt is forgotten.
     bool LoadState(StateReader& state);
 
     double delay_s() const { return estimate_(0); }    // to add to the difference of timestamps

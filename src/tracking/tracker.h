@@ -62,7 +62,8 @@ struct TrackResult {
     double alpha = 0;             // photometric weight in use, [B14] eq. 8
     double gain = 1, offset = 0;  // map intensity = gain * image intensity + offset
     // From a tracker: the colour image contradicts the map and its pose is not to be used, track
-    // again without. In a report: the frame's colour was not used.
+    // again without. In a report: that, or the colour camera hangs; the frame's colour was not
+    // used.
     bool colour_rejected = false;
     int iterations = 0;
 };

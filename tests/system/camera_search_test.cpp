@@ -71,6 +71,30 @@ TEST_F(CameraSearchTest, ALostOneIsAskedForOnceAtATime) {
     EXPECT_EQ(search_.AfterTracking(frame_, true).question, Question::kNone);
 }
 
+// A scan that ended while the camera was lost is resumed.
+TEST_F(CameraSearchTest, OneThatWasLostWhenTheScanEndedIsNotKnownByTheNextFrame) {
+    for (const bool lost : {false, true}) {
+        CameraSearch search{LoopConfig{}, 0.5, kSearchCamera};
+        search.Resume(100, lost);
+        See(100.1, 0).report.track.inlier_fraction = 0.4;
+        EXPECT_EQ(search.AfterTracking(frame_, true).lost, lost);
+        EXPECT_FALSE(search.AfterTracking(See(100.2, 0), true).lost);
+    }
+}
+
+// A single frame without colour does not make it one that can be found by its depth alone.
+TEST_F(CameraSearchTest, LostForLongItIsFoundByItsFitOnlyIfItNeverShowsColours) {
+    for (const bool colour : {false, true}) {
+        CameraSearch search{LoopConfig{}, 0.5, kSearchCamera};
+        SeeFirst(100, 0).prepared.has_colour = colour;
+        EXPECT_FALSE(search.AfterTracking(frame_, true).lost);
+        See(101, 0, TrackStatus::kLost).prepared.has_colour = colour;
+        EXPECT_TRUE(search.AfterTracking(frame_, true).lost);
+        See(110, 9).prepared.has_colour = false;
+        EXPECT_EQ(search.AfterTracking(frame_, true).lost, colour);
+    }
+}
+
 // Live: the answer comes between two frames.
 TEST_F(CameraSearchTest, WhereItCannotHaveGotToASecondViewDecides) {
     LoseIt();

@@ -85,13 +85,42 @@ TEST(Pipeline, WrongColoursNeitherMoveTheCameraNorPaintTheMap) {
             const FrameReport report = pipeline.Process(frame);
             ASSERT_EQ(report.track.status, TrackStatus::kGood) << i << ": " << report.track.reason;
             EXPECT_TRUE(report.fused);
-            EXPECT_EQ(report.track.colour_rejected, faulty) << i;
+            // That it hangs shows after half a second.
+            EXPECT_EQ(report.track.colour_rejected, faulty && fault != std::string("hangs")) << i;
             const Eigen::Isometry3d truth = SmoothPath(0).inverse() * SmoothPath(i);
             EXPECT_LT((truth.inverse() * report.track.T_world_camera).translation().norm(), 0.006)
                 << i;
         }
         if (fault == std::string("none")) usual = mean_green(pipeline);
         EXPECT_NEAR(mean_green(pipeline), usual, 2);
+    }
+}
+
+// A colour camera of half the rate, and one that hangs from the third frame on.
+TEST(Pipeline, ARepeatedImageIsCalledWrongOnlyIfTheCameraHangs) {
+    for (const bool hangs : {false, true}) {
+        Pipeline pipeline(SmallConfig(), SmallCamera());
+        for (int i = 0; i < 21; ++i) {
+            Frame frame = RoomFrame(i);
+            frame.colour = RoomFrame(hangs ? std::min(i, 2) : i / 2 * 2).colour;
+            const FrameReport report = pipeline.Process(frame);
+            ASSERT_TRUE(report.tracked()) << i << ": " << report.track.reason;
+            if (i == 17) continue;  // half a second, but for rounding
+            EXPECT_EQ(report.track.colour_rejected, hangs && i > 17) << i;
+        }
+    }
+}
+
+// An image that was refused is no better when it comes again.
+TEST(Pipeline, ARepeatedImageIsAsWrongAsItWas) {
+    Pipeline pipeline(SmallConfig(), SmallCamera());
+    for (int i = 0; i < 14; ++i) {
+        Frame frame = RoomFrame(i);
+        if (i >= 10) {
+            std::ranges::fill(std::span(frame.colour.data(), frame.colour.size()), Rgb8{3, 3, 3});
+            frame.colour(0, 0) = {static_cast<std::uint8_t>(i / 2), 3, 3};
+        }
+        EXPECT_EQ(pipeline.Process(frame).track.colour_rejected, i >= 10) << i;
     }
 }
 

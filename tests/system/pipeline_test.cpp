@@ -59,6 +59,35 @@ TEST(Pipeline, SettingsChangeTheMethodOnlyWhereTheUserChoseOne) {
     EXPECT_EQ(pipeline.Process(RoomFrame(3)).method, TrackingMethod::kIcp);
 }
 
+// With a memory limit, what stays in memory is planned for the configured depth.
+TEST(Pipeline, TheLargestDepthIsNotRaisedWhereMemoryIsLimited) {
+    Frame frame = RoomFrame(0);
+    frame.depth_m = DepthImage(160, 120, 4.0f);
+    for (const double limit_mb : {0.0, 100.0}) {
+        PipelineConfig config = SmallConfig();
+        config.frame.max_depth_m = 3;
+        config.paging.memory_limit_mb = limit_mb;
+        TrackingStage tracking(config, SmallCamera());
+        const BlockMap map(config.map);
+        const auto seen = [&](double max_depth_m, bool told) {
+            ViewerSettings settings;
+            settings.max_depth_m = max_depth_m;
+            EXPECT_EQ(tracking.Apply(settings).empty(), !told) << max_depth_m;
+            TrackedFrame tracked;
+            tracking.Track(frame, map, std::nullopt, tracked);
+            EXPECT_EQ(tracked.prepared.limit_m,
+                      limit_mb > 0 ? std::min(max_depth_m, 3.0) : max_depth_m);
+            return tracked.report.valid_depth_fraction;
+        };
+        EXPECT_EQ(seen(9, limit_mb > 0), limit_mb > 0 ? 0 : 1);
+        EXPECT_EQ(seen(9, false), limit_mb > 0 ? 0 : 1);
+        frame.depth_m = DepthImage(160, 120, 2.5f);
+        EXPECT_EQ(seen(3, false), 1);
+        EXPECT_EQ(seen(2, false), 0);
+        frame.depth_m = DepthImage(160, 120, 4.0f);
+    }
+}
+
 TEST(Pipeline, AFrameWithoutColourIsTrackedByItsShape) {
     Pipeline pipeline(SmallConfig(), SmallCamera());
     for (int i = 0; i < 10; ++i) {

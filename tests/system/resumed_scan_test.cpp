@@ -10,6 +10,7 @@
 #include "optimize/scan_parts.h"
 #include "run/open_source.h"
 #include "support/box_room_source.h"
+#include "system/frame_tracking.h"
 #include "system/resume_gate.h"
 #include "system/scan_fixture.h"
 #include "system/scan_stage.h"
@@ -102,10 +103,49 @@ TEST(ResumeGate, AStateWithoutAPoseStartsAtTheScansLast) {
     StateWriter state(saved);
     ended.SaveState(state);
     TrackingStage resumed({}, testing_support::SmallCamera());
-    ResumeGate(0.5).Begin(saved, last, false, resumed);
+    ResumeGate(0.5).Begin(saved, last, resumed);
     ASSERT_TRUE(resumed.last().has_value());
     EXPECT_EQ(resumed.last()->stamp_s, 3.5);
     EXPECT_EQ(resumed.last()->T_world_camera.matrix(), last.T_world_camera.matrix());
+}
+
+// The last correction came after the state was saved.
+TEST(ResumeGate, AStateFromBeforeACorrectionMovesToTheScansLastPose) {
+    const Eigen::Isometry3d T_saved(Eigen::Translation3d(1, 2, 3));
+    TrackingStage ended({}, testing_support::SmallCamera());
+    ended.StartAt({3.5, T_saved});
+    Bytes saved;
+    StateWriter state(saved);
+    ended.SaveState(state);
+    Eigen::Isometry3d T_corrected = T_saved * Eigen::Translation3d(0.3, 0, -0.1);
+    T_corrected.rotate(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY()));
+    // One that differs by rounding is kept as it is; of another frame's nothing is known.
+    const Eigen::Isometry3d T_rounded = T_saved * Eigen::Translation3d(1e-12, 0, 0);
+    for (const auto& [last, expected] : {std::pair(StampedPose{3.5, T_corrected}, T_corrected),
+                                         std::pair(StampedPose{3.5, T_rounded}, T_saved),
+                                         std::pair(StampedPose{3.4, T_corrected}, T_saved)}) {
+        TrackingStage resumed({}, testing_support::SmallCamera());
+        ResumeGate(0.5).Begin(saved, last, resumed);
+        ASSERT_TRUE(resumed.last().has_value());
+        EXPECT_LT((resumed.last()->T_world_camera.matrix() - expected.matrix()).norm(), 1e-13);
+    }
+}
+
+// The clock of a loss starts with the last frame that was tracked, not with the last one.
+TEST(TrackingResume, TellsWhenTheCameraWasSeenLast) {
+    ScanPlan plan;
+    ScanContent& scan = plan.resumed.emplace();
+    for (const double stamp_s : {10.0, 14.0}) {
+        PathRecord record;
+        record.stamp_s = scan.progress.last_stamp_s = stamp_s;
+        record.status = stamp_s < 12 ? TrackStatus::kPoor : TrackStatus::kLost;
+        scan.path.push_back(record);
+    }
+    EXPECT_EQ(TrackingResume::Of(plan).last_seen_s, 10);
+    EXPECT_TRUE(TrackingResume::Of(plan).lost);
+    scan.path.back().status = TrackStatus::kPoor;
+    EXPECT_EQ(TrackingResume::Of(plan).last_seen_s, 14);
+    EXPECT_FALSE(TrackingResume::Of(plan).lost);
 }
 
 TEST_F(Scan, WhatContradictsTheFileIsRefusedByItsKey) {

@@ -25,6 +25,21 @@ TEST(FrozenColour, RepeatsWhileTheDepthGoesOn) {
     EXPECT_FALSE(frozen.Repeats(FrameOf(2, 6)));
 }
 
+TEST(FrozenColour, HangsWhereOneImageComesForHalfASecond) {
+    FrozenColour frozen;
+    double stamp_s = 10;
+    const auto hangs = [&](std::uint8_t shade) {
+        stamp_s += 0.125;
+        Frame frame = FrameOf(shade, static_cast<float>(stamp_s));
+        frame.stamp_s = stamp_s;
+        frozen.Repeats(frame);
+        return frozen.hangs();
+    };
+    for (std::uint8_t i = 0; i < 8; ++i) EXPECT_FALSE(hangs(i / 2)) << i;  // at half the rate
+    for (int i = 0; i < 8; ++i) EXPECT_EQ(hangs(9), i >= 4) << i;
+    EXPECT_FALSE(hangs(10));
+}
+
 TEST(FrozenColour, AStillSceneIsNotFrozen) {
     FrozenColour frozen;
     for (int i = 0; i < 3; ++i) EXPECT_FALSE(frozen.Repeats(FrameOf(1, 1)));

@@ -142,6 +142,20 @@ TEST_F(MovingDetectorTest, WhatADetectorSaysMovesHoweverStillItStands) {
               nullptr);
 }
 
+// Its frame was poor, so Find did not see it, and nobody knows where it belongs.
+TEST_F(MovingDetectorTest, AHintOfAFrameThatWasNotTrackedIsForItAlone) {
+    for (const bool tracked : {false, true}) {
+        const double hinted_s = stamp_s_ + kFrame_s;
+        detector_.SetHint({View(BoxAt(30)), hinted_s}, 0, std::nullopt);
+        EXPECT_NE(detector_.PredictMask(hinted_s, T_world_camera_), nullptr);
+        if (tracked)
+            See(View({}));
+        else
+            stamp_s_ += kFrame_s;
+        EXPECT_EQ(detector_.PredictMask(hinted_s + kFrame_s, T_world_camera_) != nullptr, tracked);
+    }
+}
+
 // 5 % of the view, but at 0.4 m only 10 cm wide and high.
 TEST_F(MovingDetectorTest, ANearHandIsMasked) {
     for (int i = 0; i < 10; ++i) See(View({}));

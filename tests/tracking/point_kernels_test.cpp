@@ -36,6 +36,23 @@ TEST(FinestStep, GrowsWithTheImage) {
     EXPECT_EQ(step(0, 3, 80, 60), 2);
     EXPECT_EQ(step(1, 3, 1920, 1080), 1);
     EXPECT_EQ(step(4, 3, 640, 480), 4);
+    EXPECT_EQ(step(16, 3, 24, 20), 10);
+    EXPECT_EQ(step(0, 3, 1, 1), 1);
+}
+
+// The default is 3 for every image of at least 64 x 48 pixels.
+TEST(LevelsThatFit, LeaveSomethingOfTheImage) {
+    const auto levels = [](int configured, int finest_step_px, int width, int height) {
+        return LevelsThatFit(configured, finest_step_px, {width, height, 500, 500, 0, 0});
+    };
+    EXPECT_EQ(levels(3, 3, 640, 480), 3);
+    EXPECT_EQ(levels(3, 2, 320, 240), 3);
+    EXPECT_EQ(levels(3, 2, 80, 60), 3);
+    EXPECT_EQ(levels(3, 2, 64, 48), 3);
+    EXPECT_EQ(levels(5, 1, 160, 120), 5);
+    EXPECT_EQ(levels(5, 16, 320, 240), 2);
+    EXPECT_EQ(levels(5, 16, 160, 120), 1);
+    EXPECT_EQ(levels(5, 4, 8, 8), 1);
 }
 
 // Moved is the exponential of the body twist to first order. A negative time inverts it.

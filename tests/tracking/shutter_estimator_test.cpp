@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "support/box_room.h"
 #include "tracking/residual_sums.h"
@@ -109,6 +111,20 @@ TEST_F(Shutter, StaysAtZeroWhenSwitchedOff) {
     Learn(estimator, 0.003, 0.02);
     EXPECT_EQ(estimator.delay_s(), 0.0);
     EXPECT_EQ(estimator.readout_s(), 0.0);
+}
+
+// A scan is resumed with the estimator switched off.
+TEST_F(Shutter, ForgetsWhatAStateHasLearntWhereItIsSwitchedOff) {
+    for (const bool enabled : {true, false}) {
+        std::vector<std::uint8_t> saved;
+        StateWriter written(saved);
+        ShutterEstimator({.readout_s = 0.02}).SaveState(written);
+        ShutterEstimator estimator({.enabled = enabled});
+        StateReader state(saved);
+        EXPECT_TRUE(estimator.LoadState(state));
+        EXPECT_TRUE(state.at_end());
+        EXPECT_EQ(estimator.readout_s(), enabled ? 0.02 : 0.0);
+    }
 }
 
 }  // namespace

@@ -170,6 +170,24 @@ TEST_P(EveryTracker, ThreadsDoNotChangeABit) {
     EXPECT_EQ(poses[0].matrix(), poses[1].matrix());
 }
 
+// More levels than the image has: the coarsest had no row.
+TEST(Trackers, APyramidDeeperThanTheImageIsCutOff) {
+    BoxRoom room;
+    room.has_ball = true;
+    const World world(room);
+    SdfTracker::Config sdf;
+    IcpTracker::Config icp;
+    sdf.levels = icp.levels = 5;
+    sdf.finest_step_px = icp.finest_step_px = 16;
+    ResidualModel model(FixedAlpha(0));
+    SdfTracker by_field(sdf, world.camera, TrackJudge({}), model, false);
+    IcpTracker by_view(icp, world.camera, TrackJudge({}), model, false);
+    for (Tracker* tracker : {static_cast<Tracker*>(&by_field), static_cast<Tracker*>(&by_view)}) {
+        const TrackResult result = world.Track(*tracker, SmoothPath(20), SmoothPath(19));
+        EXPECT_NE(result.status, TrackStatus::kLost) << result.reason;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, EveryTracker,
                          testing::Values("sdf", "sdf-geometric", "icp", "icp-rgb"),
                          [](const auto& method) {
