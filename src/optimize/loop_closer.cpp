@@ -88,7 +88,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     // Where the map holds a place twice, tracking may jump from one surface to the other. A new
     // keyframe starts there, so that the frames on both sides can move apart. If the map is known
     // to be like this, the keyframe is linked at the pose where the camera was expected.
-    const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(T_map_camera);
+    const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(frame.stamp_s, T_map_camera);
     const bool jumped = expected && !link_;
     const bool keyframe = fused && (link_ || jumped || keyframes.Wanted(prepared, T_map_camera));
     if (keyframe)
@@ -143,7 +143,7 @@ std::optional<int> LoopCloser::LinkedTo(const Eigen::Isometry3d& T_map_camera) c
 void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused) {
     Follow(T_map_camera);
     fused_since_copy_ |= fused;
-    jumps_.Follow(T_map_camera);
+    jumps_.Follow(stamp_s, T_map_camera);
     graph_.AddPassage(stamp_s, T_map_camera, fused);
 }
 
