@@ -36,7 +36,7 @@ std::vector<CommonPlace> FindCommonPlaces(LoopCloser& a, std::span<const StoredF
             !loader.LoadPrepared(stored, settings.camera, settings.preparation, frame, prepared)
                  .ok())
             continue;
-        const std::optional<FoundCamera> found = a.Relocalise(prepared, ignored);
+        const std::optional<FoundCamera> found = a.Relocalise(frame.stamp_s, prepared, ignored);
         if (!found) continue;
         const int nearest = NearestKeyframe(a.keyframes(), found->T_map_camera);
         const Keyframe& in_a = a.keyframes()[nearest];

@@ -63,5 +63,57 @@ TEST(LoopCloser, FramesThatAreMissingWhileTheMapIsMadeAgainAreNoJump) {
     EXPECT_LT((went.translation() - true_step.translation()).norm(), 0.03);
 }
 
+// A lost camera that sees the place where the walk began. Returns the keyframe there.
+int SeeTheFirstPlace(const std::vector<Frame>& frames, double stamp_s, Walker& walker) {
+    PreparedFrame prepared;
+    PrepareFrame(frames[0], walker.settings.preparation, prepared);
+    std::string note;
+    const auto found = walker.closer.Relocalise(stamp_s, prepared, note);
+    return found ? found->keyframe : -1;
+}
+
+// Between a lost camera's being seen and its being tracked there, the map in use is still being
+// moved. What was fused before the loss must not follow the place where the camera is now.
+TEST(LoopCloser, AMapThatIsMovedIsAskedForAgainIfTheCameraIsSeenElsewhere) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    for (const bool fused : {false, true}) {
+        Walker walker(LoopConfig{});
+        walker.moves_map = true;
+        LoopCloser& closer = walker.closer;
+        const std::size_t last = WalkUntilTheMapIsMadeAgain(frames, walker);
+        ASSERT_TRUE(closer.MovesMap() && !closer.WantsMap());
+        const double stamp_s = frames[last].stamp_s + 0.2;
+        closer.Pass(stamp_s, walker.T_map_camera, fused);
+        ASSERT_EQ(SeeTheFirstPlace(frames, stamp_s + 1, walker), 0);
+        bool corrected = false;
+        while (!corrected && closer.MovesMap() && !closer.WantsMap())
+            corrected = closer.Step(20).has_value();
+        EXPECT_EQ(corrected, !fused);
+        EXPECT_EQ(closer.WantsMap(), fused);
+    }
+}
+
+// It was seen at the first place, but not tracked there, and came back by itself.
+TEST(LoopCloser, ACameraThatCameBackByItselfMovesWithWhereItIs) {
+    if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
+    const std::vector<Frame> frames = Round();
+    Walker walker(LoopConfig{});
+    const std::size_t last = WalkUntilTheMapIsMadeAgain(frames, walker);
+    ASSERT_EQ(walker.corrections, 0);
+    Frame back = frames[last];
+    ASSERT_EQ(SeeTheFirstPlace(frames, back.stamp_s + 1, walker), 0);
+    const Eigen::Isometry3d T_before = walker.T_map_camera;
+    back.stamp_s += 1;
+    while (walker.corrections == 0 && walker.closer.HasWork()) {
+        back.stamp_s += 0.2;
+        walker.Go(back, Eigen::Isometry3d::Identity());
+    }
+    ASSERT_EQ(walker.corrections, 1);
+    const Eigen::Isometry3d T_now = walker.closer.Path().back().T_world_camera;
+    EXPECT_GT((T_now.translation() - T_before.translation()).norm(), 0.01);
+    EXPECT_LT((T_now.translation() - walker.T_map_camera.translation()).norm(), 1e-6);
+}
+
 }  // namespace
 }  // namespace tessera
