@@ -14,17 +14,6 @@ namespace {
 
 using U = CalibrationUnknowns;
 
-struct EdgePrior {
-    PoseEdge edge;
-
-    template <class T>
-    bool operator()(const T* q_from, const T* t_from, const T* q_to, const T* t_to,
-                    T* residual) const {
-        EdgeResidualOf(edge, q_from, t_from, q_to, t_to, residual);
-        return true;
-    }
-};
-
 struct UnknownsPrior {
     template <class T>
     bool operator()(const T* unknowns, T* residual) const {
@@ -36,7 +25,7 @@ struct UnknownsPrior {
 
 using PairCost = ceres::AutoDiffCostFunction<PlanePair, 1, U::kCount, 4, 3, 4, 3>;
 using UnknownsCost = ceres::AutoDiffCostFunction<UnknownsPrior, U::kCount, U::kCount>;
-using PriorCost = ceres::AutoDiffCostFunction<EdgePrior, 6, 4, 3, 4, 3>;
+using PriorCost = ceres::AutoDiffCostFunction<EdgeResidual, 6, 4, 3, 4, 3>;
 
 class Solver {
   public:
@@ -71,8 +60,9 @@ void Solver::Fill(ceres::Problem& problem) {
     constexpr double kDoubt = 10.0, kLoss = 2.0;  // standard deviations
     for (PoseEdge edge : problem_.edges) {
         edge.root_information /= kDoubt;
-        problem.AddResidualBlock(new PriorCost(new EdgePrior{edge}), nullptr, Rotation(edge.from),
-                                 Place(edge.from), Rotation(edge.to), Place(edge.to));
+        problem.AddResidualBlock(new PriorCost(new EdgeResidual{edge}), nullptr,
+                                 Rotation(edge.from), Place(edge.from), Rotation(edge.to),
+                                 Place(edge.to));
     }
     double* unknowns = unknowns_.values.data();
     problem.AddResidualBlock(new UnknownsCost(new UnknownsPrior), nullptr, unknowns);

@@ -82,7 +82,8 @@ bool FrameAverage::Add(const Frame& frame, const Eigen::Isometry3d& T_keyframe_c
     const Eigen::Isometry3d T_this_first = T_keyframe_camera.inverse() * T_keyframe_camera_;
     if (count_ == 0 || count_ == kMostFrames || T_this_first.translation().norm() > kMost_m ||
         RotationAngle(T_this_first, Eigen::Isometry3d::Identity()) > kMost_rad ||
-        frame.colour.empty() != frame_.colour.empty())
+        frame.colour.empty() != frame_.colour.empty() ||
+        (view.colour_weight > 0) != (view_.colour_weight > 0))
         return false;
     AddSeenFrom(frame_.depth_m, frame.depth_m, camera_, T_this_first, sum_m_, samples_);
     view_.weight += view.weight;

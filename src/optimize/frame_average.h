@@ -21,7 +21,8 @@ class FrameAverage {
     void Begin(const Frame& frame, const Eigen::Isometry3d& T_keyframe_camera,
                const Integrator::View& view);
     // Adds a frame. Returns false, and adds nothing, if there is no first one, if the camera has
-    // moved too far from it, if enough are in it, or if only one of the two has colour.
+    // moved too far from it, if enough are in it, or if only one of the two has colour that is
+    // fused.
     bool Add(const Frame& frame, const Eigen::Isometry3d& T_keyframe_camera,
              const Integrator::View& view);
 

@@ -68,8 +68,10 @@ void LoopCloser::MakeMissingViews() {
 }
 
 // Takes note of a tracked camera. Where a part begins, or the camera was found in another one, it
-// has not moved from the last pose to this one.
-void LoopCloser::Follow(const Eigen::Isometry3d& T_map_camera) {
+// has not moved from the last pose to this one. A frame that was tracked later than the camera was
+// found, but not there, shows that it came back by itself.
+void LoopCloser::Follow(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
+    if (!link_ && stamp_s > seen_at_s_) seen_at_.reset();
     Keyframes& keyframes = graph_.keyframes();
     if (!keyframes.empty() && !InOnePart(keyframes.T_map_last(), T_map_camera)) {
         keyframes.Jump();
@@ -83,7 +85,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
                             const TrackResult& track, const Integrator::View& view, bool fused) {
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
     Keyframes& keyframes = graph_.keyframes();
-    Follow(T_map_camera);
+    Follow(frame.stamp_s, T_map_camera);
     fused_since_copy_ |= fused;
     // A corrected map may hold what this one does. It was left out of frames with a lower limit.
     settings_.preparation.max_depth_m =
@@ -91,7 +93,7 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     // Where the map holds a place twice, tracking may jump from one surface to the other. A new
     // keyframe starts there, so that the frames on both sides can move apart. If the map is known
     // to be like this, the keyframe is linked at the pose where the camera was expected.
-    const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(T_map_camera);
+    const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(frame.stamp_s, T_map_camera);
     const bool jumped = expected && !link_;
     const bool keyframe = fused && (link_ || jumped || keyframes.Wanted(prepared, T_map_camera));
     if (keyframe)
@@ -144,14 +146,14 @@ std::optional<int> LoopCloser::LinkedTo(const Eigen::Isometry3d& T_map_camera) c
 }
 
 void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused) {
-    Follow(T_map_camera);
+    Follow(stamp_s, T_map_camera);
     fused_since_copy_ |= fused;
-    jumps_.Follow(T_map_camera);
+    jumps_.Follow(stamp_s, T_map_camera);
     graph_.AddPassage(stamp_s, T_map_camera, fused);
 }
 
 std::optional<FoundCamera> LoopCloser::Relocalise(
-    const PreparedFrame& frame, std::string& note,
+    double stamp_s, const PreparedFrame& frame, std::string& note,
     const std::optional<Eigen::Isometry3d>& T_map_expected) {
     seen_at_.reset();
     const Keyframes& keyframes = graph_.keyframes();
@@ -170,6 +172,7 @@ std::optional<FoundCamera> LoopCloser::Relocalise(
             return graph_.KeyframesInPartOf(place.T_map_camera);
         });
     seen_at_ = best.keyframe;
+    seen_at_s_ = stamp_s;
     note = fmt::format("relocalised at frame {}", keyframes[best.keyframe].frame_index);
     if (std::string joined = joiner_.JoinAt(places); !joined.empty()) note += "; " + joined;
     return FoundCamera{Normalised(best.T_map_camera), best.keyframe};

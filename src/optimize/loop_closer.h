@@ -63,11 +63,11 @@ class LoopCloser {
     void SetSeeking(bool on) { seeking_ = on; }
     // For a tracked frame of which only the pose is kept.
     void Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused);
-    // Where the camera of this frame is. Empty if the place is unknown or ambiguous. A view that
-    // parts of the scan have in common may join them. `note`: message for the user.
-    // `T_map_expected`: looks only in its part of the scan.
+    // Where the camera of this frame, taken at `stamp_s`, is. Empty if the place is unknown or
+    // ambiguous. A view that parts of the scan have in common may join them. `note`: message for
+    // the user. `T_map_expected`: looks only in its part of the scan.
     std::optional<FoundCamera> Relocalise(
-        const PreparedFrame& frame, std::string& note,
+        double stamp_s, const PreparedFrame& frame, std::string& note,
         const std::optional<Eigen::Isometry3d>& T_map_expected = std::nullopt);
     // Call before Add or Pass of the first frame that was tracked where Relocalise found the
     // camera. The next keyframe is linked to the one that was found: nothing is known of the motion
@@ -113,11 +113,12 @@ class LoopCloser {
   private:
     void AddPlaces();
     void MakeMissingViews();
-    void Follow(const Eigen::Isometry3d& T_map_camera);
+    void Follow(double stamp_s, const Eigen::Isometry3d& T_map_camera);
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                      const FrameMotion& motion, const Eigen::Isometry3d& T_map_expected,
                      bool doubtful);
     void DiscardCopy();
+    bool MoveAlike(int a, int b) const;
     std::optional<int> LinkedTo(const Eigen::Isometry3d& T_map_camera) const;
     std::string SeekLoop(const Keyframe& fresh, const PreparedFrame& prepared,
                          const FrameMotion& motion);
@@ -138,8 +139,11 @@ class LoopCloser {
     PartJoiner joiner_;
     MapCorrector corrector_;
     JumpDetector jumps_;
-    std::optional<int> link_;     // keyframe to which the next one is linked; else to the newest
-    std::optional<int> seen_at_;  // where a lost camera was seen last, if after the last keyframe
+    std::optional<int> link_;  // keyframe to which the next one is linked; else to the newest
+    // Where a lost camera was seen last, if it has not been tracked elsewhere since, and the frame
+    // that showed it.
+    std::optional<int> seen_at_;
+    double seen_at_s_ = 0;
     std::optional<CalibrationReport> calibration_;
     bool seeking_ = true;
     bool fused_since_copy_ = false;  // of the map that is moved

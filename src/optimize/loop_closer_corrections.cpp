@@ -29,11 +29,14 @@ std::optional<LoopCloser::Correction> LoopCloser::Step(int frames) {
 }
 
 std::optional<LoopCloser::Correction> LoopCloser::StepCorrection(int frames) {
+    Keyframes& keyframes = graph_.keyframes();
+    // What was fused since the map was copied lies beside `newest`, and is moved as the camera.
+    const int newest = link_.value_or(keyframes.last().id), here = seen_at_.value_or(newest);
+    if (!MoveAlike(here, newest)) DiscardCopy();
+    if (!corrector_.busy()) return std::nullopt;
     const std::unique_ptr<MapRebuild> made = corrector_.Step(frames);
     if (!made) return std::nullopt;
     const std::vector<Eigen::Isometry3d>& T_new_keyframe = made->T_world_keyframe();
-    Keyframes& keyframes = graph_.keyframes();
-    const int here = seen_at_.value_or(keyframes.last().id);
     Correction correction;
     correction.map = made->TakeMap();
     correction.labels = made->TakeLabels();
@@ -47,6 +50,20 @@ std::optional<LoopCloser::Correction> LoopCloser::StepCorrection(int frames) {
     jumps_.Move(correction.T_new_old);
     swapped_ = true;
     return correction;
+}
+
+// Whether the map that is being made moves keyframe b, and what it sees, as keyframe a, to within
+// what a map can show.
+bool LoopCloser::MoveAlike(int a, int b) const {
+    const Eigen::Isometry3d& T_map_b = graph_.keyframes()[b].T_map_camera;
+    const auto moved_as = [&](int id) {
+        return Eigen::Isometry3d(corrector_.T_new_keyframe()[static_cast<std::size_t>(id)] *
+                                 graph_.keyframes()[id].T_map_camera.inverse() * T_map_b);
+    };
+    const Eigen::Isometry3d by_a = moved_as(a), by_b = moved_as(b);
+    return (by_a.translation() - by_b.translation()).norm() +
+               ScanGraph::kReach_m * RotationAngle(by_a, by_b) <
+           settings_.map.voxel_size_m / 2;
 }
 
 // All of what was begun.

@@ -42,6 +42,10 @@ class MapCorrector {
     bool busy() const { return made_ != nullptr; }
     // A copy of the map in use is being moved.
     bool moves_copy() const { return made_ && made_->has_copy(); }
+    // Of the map that is being made, by keyframe. Only while busy.
+    const std::vector<Eigen::Isometry3d>& T_new_keyframe() const {
+        return made_->T_world_keyframe();
+    }
     // True if a map is due and the one in use can be moved while it goes on being used.
     bool WantsMap() const;
     // Surfaces closer than that are one surface to tracking.

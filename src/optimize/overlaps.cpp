@@ -10,8 +10,9 @@
 namespace tessera {
 namespace {
 
-constexpr int kNear = 4;   // keyframes back: never seen at two different times
-constexpr int kOlder = 8;  // at most this many older ones
+constexpr int kNear = 4;    // keyframes back: never seen at two different times
+constexpr int kOlder = 8;   // at most this many older ones
+constexpr int kTried = 16;  // of older ones, as some do not see the same
 constexpr double kLeastShared = 0.3, kLeastFit = 0.5;
 // Tracking against the map, between two keyframes that see the same surface.
 constexpr double kTracked_m = 0.002, kTracked_rad = 0.002;
@@ -76,12 +77,37 @@ PoseEdge EdgeOf(const Overlap& overlap, int to, const CovarianceFactors& factors
 }  // namespace
 
 int OverlapFinder::Find(Keyframes& keyframes, int id, bool tracked) {
+    const auto older = [id](int with) { return id - with > kNear; };
+    int left = kOlder - static_cast<int>(
+                            std::ranges::count_if(keyframes[id].overlaps, older, &Overlap::with));
     int found = 0;
-    for (const int with : Candidates(keyframes, id))
-        found +=
-            Align(keyframes, id, with,
-                  Between(keyframes[with].T_world_camera, keyframes[id].T_world_camera), tracked);
+    for (const int with : Candidates(keyframes, id)) {
+        if (older(with) && left <= 0) break;
+        const Eigen::Isometry3d T_with_this =
+            Between(keyframes[with].T_world_camera, keyframes[id].T_world_camera);
+        if (!(tracked ? Align(keyframes, id, with, T_with_this, true)
+                      : AlignOnce(keyframes, id, with, T_with_this)))
+            continue;
+        ++found;
+        left -= older(with);
+    }
     return found;
+}
+
+// Every solution moves the keyframes a little, and most pairs that failed would fail again. So
+// alignment starts from the nearest pose on a grid, which is near enough for it: what failed from
+// there fails from there again, and is left out. A resumed scan, which has forgotten it, tries it
+// in vain and goes on the same.
+bool OverlapFinder::AlignOnce(Keyframes& keyframes, int id, int with,
+                              const Eigen::Isometry3d& T_with_this) {
+    constexpr double kGrid = 0.02;  // metres and radians
+    const Vector6d start = (Se3Log(T_with_this) / kGrid).array().round();
+    Pair pair{with, id};
+    for (int i = 0; i < 6; ++i) pair[static_cast<std::size_t>(2 + i)] = static_cast<int>(start(i));
+    if (failed_.contains(pair)) return false;
+    if (Align(keyframes, id, with, Se3Exp(kGrid * start), false)) return true;
+    failed_.insert(pair);
+    return false;
 }
 
 bool OverlapFinder::Align(Keyframes& keyframes, int id, int with,
@@ -106,7 +132,7 @@ bool OverlapFinder::Align(Keyframes& keyframes, int id, int with,
 }
 
 // The last few that share enough, then older ones, those that share most first. Of neighbours in
-// time only one: the other would add little.
+// time only one: the other would add little, or not see the same either.
 std::vector<int> OverlapFinder::Candidates(const Keyframes& keyframes, int id) const {
     const Keyframe& fresh = keyframes[id];
     if (fresh.reduced.empty()) return {};
@@ -127,7 +153,7 @@ std::vector<int> OverlapFinder::Candidates(const Keyframes& keyframes, int id) c
     int count =
         static_cast<int>(std::ranges::count_if(known, [&](int with) { return id - with > kNear; }));
     for (const auto& [shared, with] : older) {
-        if (count >= kOlder) break;
+        if (count >= kTried) break;
         if (std::ranges::any_of(known, [at = with](int other) { return std::abs(other - at) < 2; }))
             continue;
         known.push_back(with);

@@ -2,7 +2,9 @@
 // what the alignment says is weighed against how they were tracked.
 #pragma once
 
+#include <array>
 #include <list>
+#include <set>
 #include <vector>
 
 #include "optimize/covariance_factors.h"
@@ -20,8 +22,9 @@ class OverlapFinder {
 
     // Aligns keyframe `id` with earlier ones that see the same surface according to the pose graph,
     // and adds the overlaps to it that it does not have yet: with the last few keyframes, and with
-    // the older ones that share most. `tracked`: T_map_camera of both are from tracking. Returns
-    // the number of new overlaps.
+    // the older ones that share most. `tracked`: T_map_camera of both are from tracking; else this
+    // is not the first time, and pairs that failed are not tried again while their relative pose is
+    // the same to within a centimetre or two. Returns the number of new overlaps.
     int Find(Keyframes& keyframes, int id, bool tracked);
     // Aligns keyframe `id` with an earlier one, starting from T_with_this. Returns true if it has
     // the overlap now.
@@ -44,9 +47,14 @@ class OverlapFinder {
         DenseView view;
     };
 
+    // Two keyframes, and in which cell of a grid their relative pose is.
+    using Pair = std::array<int, 8>;
+
     std::vector<int> Candidates(const Keyframes& keyframes, int id) const;
+    bool AlignOnce(Keyframes& keyframes, int id, int with, const Eigen::Isometry3d& T_with_this);
 
     PinholeCamera camera_;
+    std::set<Pair> failed_;    // not aligned by AlignOnce
     std::list<Cached> cache_;  // most recently used first
 };
 

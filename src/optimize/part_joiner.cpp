@@ -37,7 +37,12 @@ std::string PartJoiner::Join(std::span<const int> parts, int a, int b) {
                parts[static_cast<std::size_t>(place.in_b)] == b;
     };
     std::vector<CommonPlace> places;
-    for (CommonPlace place : common_) {
+    for (CommonPlace& place : common_) {
+        // Since then the later one may have been joined to an earlier one than the other.
+        if (parts[static_cast<std::size_t>(place.in_a)] == b) {
+            std::swap(place.in_a, place.in_b);
+            place.T_in_a_in_b = Normalised(place.T_in_a_in_b.inverse());
+        }
         if (!between(place)) continue;
         place.T_world_a_in_b = keyframes[place.in_a].T_world_camera * place.T_in_a_in_b;
         places.push_back(place);

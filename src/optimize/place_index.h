@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "optimize/features.h"
@@ -32,16 +31,18 @@ class PlaceIndex {
                                  int min_votes) const;
 
   private:
-    struct Entry {
-        std::int32_t keyframe, feature;
-    };
     static constexpr int kTables = 12, kBits = 18;
 
-    std::uint32_t Key(int table, const Descriptor& descriptor) const;
+    std::size_t Key(int table, const Descriptor& descriptor) const;
 
     std::uint8_t bits_[kTables][kBits];
-    std::vector<std::vector<Descriptor>> descriptors_;  // by keyframe
-    std::unordered_map<std::uint32_t, std::vector<Entry>> buckets_;
+    int keyframes_ = 0;  // the last one's number plus one
+    std::vector<Descriptor> descriptors_;
+    std::vector<std::int32_t> keyframe_of_;  // by descriptor
+    // A bucket is a chain of descriptors: its newest one, and for each, in each table, the one
+    // before it; -1 at the end. That is 84 bytes a descriptor with the two above, and 19 MB.
+    std::vector<std::int32_t> newest_, before_;
+    std::vector<std::uint16_t> sizes_;  // of the buckets, counted until one is full
 };
 
 }  // namespace tessera

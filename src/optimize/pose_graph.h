@@ -21,18 +21,11 @@ struct PoseEdge {
 
 // Root of the information of independent increments with these standard deviations about and along
 // each axis.
-Matrix6d RootInformation(double sigma_rad, double sigma_m);
-
-// Residual of one edge in standard deviations: root_information times the error, which is the
-// rotation (twice the vector part of the error quaternion), then the translation, of
-// T_from_to^-1 T_world_from^-1 T_world_to.
-Vector6d EdgeResidual(const PoseEdge& edge, const Eigen::Isometry3d& T_world_from,
-                      const Eigen::Isometry3d& T_world_to);
-
-struct PoseGraphReport {
-    int iterations = 0;
-    double initial_cost = 0, final_cost = 0;
-};
+inline Matrix6d RootInformation(double sigma_rad, double sigma_m) {
+    Vector6d inverse;
+    inverse << Eigen::Vector3d::Constant(1 / sigma_rad), Eigen::Vector3d::Constant(1 / sigma_m);
+    return inverse.asDiagonal();
+}
 
 // True if this build includes Ceres.
 bool PoseGraphAvailable();
@@ -41,12 +34,7 @@ bool PoseGraphAvailable();
 // for two reasons: a wrong loop has little influence, and where the camera came back with drift,
 // tracking may jump from the new surface to the old one. Runs on one thread; deterministic. Error
 // if Ceres is missing or finds no usable solution; the poses are then unchanged.
-Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge> edges,
-                                      std::vector<Eigen::Isometry3d>& T_world_camera);
-
-// For tests: largest difference between Ceres' Jacobian of one edge and central differences,
-// relative to the largest Jacobian entry.
-double EdgeJacobianError(const PoseEdge& edge, const Eigen::Isometry3d& T_world_from,
-                         const Eigen::Isometry3d& T_world_to);
+[[nodiscard]] Status OptimisePoses(std::span<const PoseEdge> edges,
+                                   std::vector<Eigen::Isometry3d>& T_world_camera);
 
 }  // namespace tessera

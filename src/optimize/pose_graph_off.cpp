@@ -6,12 +6,8 @@ namespace tessera {
 
 bool PoseGraphAvailable() { return false; }
 
-Result<PoseGraphReport> OptimisePoses(std::span<const PoseEdge>, std::vector<Eigen::Isometry3d>&) {
+Status OptimisePoses(std::span<const PoseEdge>, std::vector<Eigen::Isometry3d>&) {
     return Status::Error("this build has no pose graph; install libceres-dev and rebuild");
-}
-
-double EdgeJacobianError(const PoseEdge&, const Eigen::Isometry3d&, const Eigen::Isometry3d&) {
-    return 0;
 }
 
 Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem&,

@@ -107,7 +107,7 @@ Status ScanGraph::Optimise() {
         edges.insert(edges.end(), overlaps.begin(), overlaps.end());
     }
     std::vector<Eigen::Isometry3d> poses = Poses();
-    if (const auto report = OptimisePoses(edges, poses); !report.ok()) return report.status();
+    if (Status solved = OptimisePoses(edges, poses); !solved.ok()) return solved;
     SetPoses(poses);
     return Status::Ok();
 }

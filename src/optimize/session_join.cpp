@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/se3.h"
@@ -22,6 +23,20 @@ int NearestKeyframe(const Keyframes& keyframes, const Eigen::Isometry3d& T_map_c
     return nearest;
 }
 
+// Moves a part, whose first keyframe this is, to where none of these keyframes is.
+Eigen::Isometry3d ToAFreePlace(const Keyframe& first, std::span<const Keyframe> keyframes) {
+    const auto taken = [&](int part) {
+        return std::ranges::any_of(keyframes, [&](const Keyframe& keyframe) {
+            return InOnePart(keyframe.T_map_camera, PartStart(part)) ||
+                   InOnePart(keyframe.T_world_camera, PartStart(part));
+        });
+    };
+    int part = 1;
+    while (taken(part)) ++part;
+    return Eigen::Isometry3d(
+        Eigen::Translation3d(PartStart(part).translation() - first.T_world_camera.translation()));
+}
+
 }  // namespace
 
 std::vector<CommonPlace> FindCommonPlaces(LoopCloser& a, std::span<const StoredFrame> frames,
@@ -36,7 +51,7 @@ std::vector<CommonPlace> FindCommonPlaces(LoopCloser& a, std::span<const StoredF
             !loader.LoadPrepared(stored, settings.camera, settings.preparation, frame, prepared)
                  .ok())
             continue;
-        const std::optional<FoundCamera> found = a.Relocalise(prepared, ignored);
+        const std::optional<FoundCamera> found = a.Relocalise(frame.stamp_s, prepared, ignored);
         if (!found) continue;
         const int nearest = NearestKeyframe(a.keyframes(), found->T_map_camera);
         const Keyframe& in_a = a.keyframes()[nearest];
@@ -52,10 +67,16 @@ void AppendSession(LoopCloser::Memory b, const JointPose& pose, LoopCloser::Memo
     const int first = static_cast<int>(a.graph.keyframes.size());
     const double way_m = a.graph.keyframes.empty() ? 0 : a.graph.keyframes.back().path_length_m,
                  turned_rad = a.graph.keyframes.empty() ? 0 : a.graph.keyframes.back().turned_rad;
+    const std::vector<int> parts = PartsOf(b.graph.edges, b.graph.keyframes);
+    const auto part_of = [&](int id) { return parts[static_cast<std::size_t>(id)]; };
+    std::map<int, Eigen::Isometry3d> T_a_part;  // where b's parts go
+    for (const CommonPlace& place : pose.places) T_a_part[part_of(place.in_b)] = pose.T_a_b;
     for (Keyframe& keyframe : b.graph.keyframes) {
+        const int part = part_of(keyframe.id);
+        if (!T_a_part.contains(part)) T_a_part[part] = ToAFreePlace(keyframe, a.graph.keyframes);
         keyframe.id += first;
-        keyframe.T_map_camera = Normalised(pose.T_a_b * keyframe.T_map_camera);
-        keyframe.T_world_camera = Normalised(pose.T_a_b * keyframe.T_world_camera);
+        keyframe.T_map_camera = Normalised(T_a_part[part] * keyframe.T_map_camera);
+        keyframe.T_world_camera = Normalised(T_a_part[part] * keyframe.T_world_camera);
         keyframe.path_length_m += way_m;
         keyframe.turned_rad += turned_rad;
         for (Overlap& overlap : keyframe.overlaps) overlap.with += first;

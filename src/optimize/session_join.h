@@ -14,7 +14,8 @@ namespace tessera {
 std::vector<CommonPlace> FindCommonPlaces(LoopCloser& a, std::span<const StoredFrame> frames,
                                           const FieldSettings& settings, double depth_units_per_m);
 
-// Appends b, with its world moved into a's, and links both at the places.
+// Appends b, with its world moved into a's, and links both at the places. A part of b that no place
+// joins goes beside the parts of a.
 void AppendSession(LoopCloser::Memory b, const JointPose& pose, LoopCloser::Memory& a);
 
 }  // namespace tessera

@@ -64,7 +64,8 @@ void LoopStage::AfterTracking(const Frame& frame, const BlockMap& map, TrackingS
 bool LoopStage::Find(const Frame& frame, const BlockMap& map, const CameraSearch::Step& step,
                      TrackingStage& tracking, TrackedFrame& tracked, const LoadAround& bring) {
     std::string note;
-    const std::optional<FoundCamera> found = closer_.Relocalise(tracked.prepared, note);
+    const std::optional<FoundCamera> found =
+        closer_.Relocalise(tracked.report.stamp_s, tracked.prepared, note);
     if (!found) {
         if (step.lost) AddNote(note, tracked.report.warning);
         return false;
@@ -80,9 +81,9 @@ bool LoopStage::Find(const Frame& frame, const BlockMap& map, const CameraSearch
 void LoopStage::CheckPlace(TrackingStage& tracking, TrackedFrame& tracked) {
     std::string ignored;
     const char* note = "";
-    if (search_.TakeSecondView(
-            closer_.Relocalise(tracked.prepared, ignored, tracked.report.track.T_world_camera),
-            note))
+    if (search_.TakeSecondView(closer_.Relocalise(tracked.report.stamp_s, tracked.prepared, ignored,
+                                                  tracked.report.track.T_world_camera),
+                               note))
         return AddNote(note, tracked.report.warning);
     tracking.RejectPose(note, tracked);
 }

@@ -197,7 +197,8 @@ bool LoopThread::Reply() {
     // From before the last reset or correction, or after a reset that is still to be made here.
     answer.obsolete = question.map != version();
     if (!answer.obsolete)
-        answer.found = closer_->Relocalise(*question.frame, answer.note, question.T_map_expected);
+        answer.found = closer_->Relocalise(question.stamp_s, *question.frame, answer.note,
+                                           question.T_map_expected);
     TESSERA_CHECK(answers_.TryPush(std::move(answer)), "more answers than questions");
     return true;
 }

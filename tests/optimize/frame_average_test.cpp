@@ -93,6 +93,21 @@ TEST(FrameAverage, WeighsAsMuchAsItsFrames) {
     EXPECT_FLOAT_EQ(average.view().colour_weight, 0.5f);
 }
 
+// A refused colour keeps its image: it must not count as that of frames whose colour is good.
+TEST(FrameAverage, OneColourIsNotAveragedWithARefusedOne) {
+    const Frame frame = FrameFrom(MovedPose(0, 0));
+    Integrator::View good, refused;
+    refused.colour_weight = 0;
+    for (const bool good_first : {false, true}) {
+        FrameAverage average(SmallCamera());
+        average.Begin(frame, Eigen::Isometry3d::Identity(), good_first ? good : refused);
+        EXPECT_FALSE(
+            average.Add(frame, Eigen::Isometry3d::Identity(), good_first ? refused : good));
+        EXPECT_TRUE(average.Add(frame, Eigen::Isometry3d::Identity(), good_first ? good : refused));
+        EXPECT_EQ(average.view().colour_weight > 0, good_first);
+    }
+}
+
 TEST(FrameAverage, LeavesOutWhatIsMissingOrAnotherSurface) {
     const Frame first = FrameFrom(MovedPose(0, 0));
     Frame second = first;

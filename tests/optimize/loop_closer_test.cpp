@@ -195,7 +195,7 @@ TEST(LoopCloser, TwoIdenticalRoomsAreNotOne) {
         PreparedFrame prepared;
         PrepareFrame(frames[8], walker.settings.preparation, prepared);
         std::string note;
-        EXPECT_FALSE(walker.closer.Relocalise(prepared, note).has_value());
+        EXPECT_FALSE(walker.closer.Relocalise(frames[8].stamp_s, prepared, note).has_value());
         EXPECT_NE(note.find("ambiguous"), std::string::npos) << note;
     }
 }
@@ -212,7 +212,7 @@ TEST(LoopCloser, FindsALostCameraToTheCentimetreAndRefusesAnUnknownPlace) {
     int found = 0;
     for (const Frame& frame : RoomWalk(15, 5, 24)) {
         PrepareFrame(frame, walker.settings.preparation, prepared);
-        const auto here = walker.closer.Relocalise(prepared, note);
+        const auto here = walker.closer.Relocalise(frame.stamp_s, prepared, note);
         if (!here) continue;
         ++found;
         EXPECT_LT((here->T_map_camera.translation() - frame.T_world_camera->translation()).norm(),
@@ -222,7 +222,8 @@ TEST(LoopCloser, FindsALostCameraToTheCentimetreAndRefusesAnUnknownPlace) {
     EXPECT_GE(found, 4);
     for (const Frame& frame : RoomWalk(360, 5, 24)) {  // the other side of the room
         PrepareFrame(frame, walker.settings.preparation, prepared);
-        EXPECT_FALSE(walker.closer.Relocalise(prepared, note).has_value()) << frame.index;
+        EXPECT_FALSE(walker.closer.Relocalise(frame.stamp_s, prepared, note).has_value())
+            << frame.index;
     }
 }
 
@@ -250,7 +251,8 @@ TEST(LoopCloser, FindsNoCameraAtAKeyframeWhoseFrameIsMissing) {
             std::erase_if(memory.frames, [](const StoredFrame& f) { return f.is_keyframe; });
         LoopCloser resumed(LoopConfig{}, walker.settings, 5000);
         resumed.Resume(std::move(memory));
-        EXPECT_EQ(resumed.Relocalise(prepared, note).has_value(), !missing) << note;
+        EXPECT_EQ(resumed.Relocalise(seen[4].stamp_s, prepared, note).has_value(), !missing)
+            << note;
     }
     FrameStore none(1 << 20, 5000);
     const FieldVerdict verdict = LoopVerifier(walker.settings, LoopConfig{})
@@ -291,7 +293,7 @@ TEST(LoopCloser, OnlyAFrameThatWasTrackedWhereTheCameraWasFoundIsLinkedThere) {
     std::string note;
     PreparedFrame prepared;
     PrepareFrame(seen[1], walker.settings.preparation, prepared);
-    const auto found = walker.closer.Relocalise(prepared, note);
+    const auto found = walker.closer.Relocalise(seen[19].stamp_s, prepared, note);
     ASSERT_TRUE(found) << note;
     const int last = walker.closer.keyframes().last().id;
     ASSERT_LT(found->keyframe + 1, last);

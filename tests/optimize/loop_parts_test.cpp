@@ -163,9 +163,11 @@ TEST_F(LoopParts, AHandfulOfFramesIsNoPlaceToBeFoundAt) {
         PreparedFrame prepared;
         PrepareFrame(first[4], walker.settings.preparation, prepared);
         std::string note;
-        EXPECT_TRUE(walker.closer.Relocalise(prepared, note)) << count;
+        EXPECT_TRUE(walker.closer.Relocalise(first[4].stamp_s, prepared, note)) << count;
         Walk(walker, RoomWalk(360, 1, 3), 1);
-        EXPECT_EQ(walker.closer.Relocalise(prepared, note).has_value(), count > 10) << count;
+        EXPECT_EQ(walker.closer.Relocalise(first[4].stamp_s, prepared, note).has_value(),
+                  count > 10)
+            << count;
     }
 }
 
@@ -180,8 +182,9 @@ TEST_F(LoopParts, AreJoinedByALostCameraThatIsFoundInBoth) {
     std::string note;
     PreparedFrame prepared;
     const auto relocalise = [&](int frame, const std::optional<Eigen::Isometry3d>& expected = {}) {
-        PrepareFrame(RoomWalk(frame, 1, 1)[0], walker.settings.preparation, prepared);
-        return walker.closer.Relocalise(prepared, note, expected);
+        const Frame view = RoomWalk(frame, 1, 1)[0];
+        PrepareFrame(view, walker.settings.preparation, prepared);
+        return walker.closer.Relocalise(view.stamp_s, prepared, note, expected);
     };
     const auto in_second = relocalise(9, PartStart(1));
     ASSERT_TRUE(in_second) << note;

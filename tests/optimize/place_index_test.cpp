@@ -56,6 +56,19 @@ TEST_F(Places, AnUnknownPlaceHasNoVotes) {
     EXPECT_TRUE(index.Query(Random(random, 300), 30, 3, 1).empty());
 }
 
+// What is seen everywhere, such as a blank wall, tells no place from another.
+TEST(PlaceIndex, WhatMoreThanFourHundredFeaturesLookLikeDoesNotVote) {
+    std::mt19937_64 random(7);
+    const std::vector<Descriptor> one = Random(random, 1);
+    PlaceIndex index;
+    index.Add(0, std::vector<Descriptor>(399, one[0]));
+    index.Add(2, one);  // keyframe 1 has no features
+    const std::vector<PlaceIndex::Candidate> both{{0, 1}, {2, 1}};
+    EXPECT_EQ(index.Query(one, 3, 5, 1), both);
+    index.Add(3, one);
+    EXPECT_TRUE(index.Query(one, 3, 5, 1).empty());
+}
+
 TEST_F(Places, RecentOnesAreLeftOutAndTheBestComeFirst) {
     std::vector<Descriptor> query(places[20].begin(), places[20].begin() + 50);
     query.insert(query.end(), places[3].begin(), places[3].begin() + 80);

@@ -29,28 +29,12 @@ class Square : public testing::Test {
     std::vector<PoseEdge> edges;
 };
 
-TEST_F(Square, ResidualIsZeroWhereTheEdgeIsMetAndCountsDeviations) {
-    EXPECT_LT(EdgeResidual(edges[1], drifted[1], drifted[2]).norm(), 1e-9);
-    const Vector6d r =
-        EdgeResidual({0, 1, Eigen::Isometry3d::Identity(), RootInformation(0.1, 0.5), false},
-                     truth[0], truth[0] * Pose(0, 0, 0.001, 0, 1, 0));
-    EXPECT_NEAR(r(2), 0.01, 1e-6);
-    EXPECT_NEAR(r(4), 2, 1e-2);
-}
-
-TEST_F(Square, JacobianAgreesWithCentralDifferences) {
-    const PoseEdge edge{0, 1, Pose(0.5, -0.2, 0.8, 1, 2, 3), RootInformation(0.2, 0.1), false};
-    EXPECT_LT(EdgeJacobianError(edge, Pose(-0.4, 0.3, 0.2, 1, 0, 2), Pose(0.3, 0.1, 0.9, 2, 2, 4)),
-              1e-7);
-}
-
 TEST_F(Square, ALoopBringsTheEndToTheStart) {
     edges.push_back({0, 4, truth[0].inverse() * truth[4], RootInformation(0.001, 0.001), true});
     const double before = (drifted[4].translation() - truth[4].translation()).norm();
     auto poses = drifted;
-    const auto report = OptimisePoses(edges, poses);
-    ASSERT_TRUE(report.ok()) << report.message();
-    EXPECT_LT(report.value().final_cost, report.value().initial_cost);
+    const Status solved = OptimisePoses(edges, poses);
+    ASSERT_TRUE(solved.ok()) << solved.message();
     EXPECT_TRUE(poses[0].isApprox(truth[0], 0));  // the first pose is fixed
     EXPECT_LT((poses[4].translation() - truth[4].translation()).norm(), before / 20);
 }

@@ -90,5 +90,28 @@ TEST(AppendSession, MovesAndRenumbersWhatItAppends) {
     EXPECT_TRUE(a.graph.corrected);
 }
 
+// Of both scans a part is left that nothing joins, and both began at the same place of their map.
+TEST(AppendSession, PartsThatNothingJoinsStayApart) {
+    LoopCloser::Memory scans[2];
+    for (LoopCloser::Memory& scan : scans) {
+        scan.graph.keyframes = AlongAWall(4, 1.0);
+        for (const std::size_t id : {2u, 3u}) {
+            Keyframe& keyframe = scan.graph.keyframes[id];
+            keyframe.T_map_camera = keyframe.T_world_camera =
+                PartStart(1) * Shifted(static_cast<double>(id) - 2);
+        }
+        for (const int id : {0, 2})
+            scan.graph.edges.push_back({id, id + 1, Shifted(1), Matrix6d::Identity(), false});
+    }
+    LoopCloser::Memory& a = scans[0];
+    AppendSession(std::move(scans[1]), {Shifted(7), {{1, 0, Shifted(6), Shifted(7)}}}, a);
+    EXPECT_EQ(PartsOf(a.graph.edges, a.graph.keyframes), (std::vector{0, 0, 2, 2, 0, 0, 6, 6}));
+    for (const int id : {6, 7}) {
+        const Keyframe& keyframe = a.graph.keyframes[static_cast<std::size_t>(id)];
+        EXPECT_TRUE(keyframe.T_map_camera.isApprox(PartStart(2) * Shifted(id - 6)));
+        EXPECT_TRUE(keyframe.T_world_camera.isApprox(PartStart(2) * Shifted(id - 6)));
+    }
+}
+
 }  // namespace
 }  // namespace tessera
