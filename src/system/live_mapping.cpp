@@ -78,6 +78,7 @@ void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels) {
                                   life_.saving(),
                                   life_.TakeLoops()};
     settings.tracked_layers = config_.pipeline.trackers.layers();
+    settings.only_answers = only_localise_;
     if (life_.saving())
         settings.make_pager = RebuildPagers(config_.pipeline, source_.camera, life_.scan_path());
     loops_ = std::make_unique<LoopThread>(

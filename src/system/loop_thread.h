@@ -29,6 +29,7 @@ class LoopThread {
         std::optional<LoopCloser::Memory> resumed;  // of an earlier scan that is continued
         LoopCloser::MakePager make_pager = {};
         BlockMap::Layers tracked_layers = BlockMap::Layers::kFieldOnly;  // of Update::field
+        bool only_answers = false;  // the map stays, also one that a resumed scan would correct
     };
     // Apply updates in order: `news` refers to the map after all earlier corrections and the one in
     // this update.
@@ -139,8 +140,9 @@ class LoopThread {
     void Conclude();
     void BeginWorld(int world);
     bool MayCorrect() const {
-        return seeking_.load() && closer_->HasWork() && map_.load() == Asked::kNo &&
-               !settled_.load() && updates_.size() < kUpdates - kForCorrections;
+        return !settings_.only_answers && seeking_.load() && closer_->HasWork() &&
+               map_.load() == Asked::kNo && !settled_.load() &&
+               updates_.size() < kUpdates - kForCorrections;
     }
     void Do(Job& job);
     void AddFrame(Job& job);

@@ -52,5 +52,31 @@ TEST(LoopNews, TheFirstHasAllThatWasBeforeItWasAskedFor) {
     EXPECT_GE(update.news.passages.size(), 20u);
 }
 
+// A scan that was cut off between a loop and its map. A run that only localises keeps that map.
+TEST(LoopNews, AMapThatIsOnlyUsedIsNotCorrected) {
+    const std::vector<Frame> walk = RoomWalk(0, 4, 10);
+    testing_support::Walker walker(LoopConfig{});
+    for (const Frame& frame : walk)
+        walker.Go(frame, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.4)));
+    const ScanGraph& graph = walker.closer.graph();
+    const std::span<const Keyframe> keyframes = graph.keyframes().all();
+    LoopCloser::Memory memory;
+    memory.graph = {{keyframes.begin(), keyframes.end()}, graph.edges(), graph.passages(), 1, true};
+    memory.frames = walker.closer.store().frames();
+    memory.next_ordinal = walker.closer.store().next_ordinal();
+    ASSERT_GT(memory.graph.keyframes.size(), 1u);
+    memory.graph.keyframes.back().T_world_camera.translation().x() += 1;
+    for (const bool only_answers : {false, true}) {
+        Place place;
+        LoopThread::Settings settings{LoopConfig{}, place.field, 5000, std::nullopt, false, memory};
+        settings.only_answers = only_answers;
+        LoopThread thread(std::move(settings), place.around());
+        // When the second is begun, the thread has done what follows the first.
+        for (int i = 0; i < 2; ++i) thread.OfferDetections(-1, {}, {}, {});
+        place.mapping.Wait([&] { return thread.waiting() == 0; });
+        EXPECT_EQ(thread.wants_map(), !only_answers);
+    }
+}
+
 }  // namespace
 }  // namespace tessera
