@@ -166,6 +166,7 @@ std::string FrameMapping::StartScanNow(const std::string& path) {
 void FrameMapping::Finish() {
     if (mesh_writer_) mesh_writer_->Finish();
     if (paging_) paging_->Close();
+    while (scan_ && stage_.following()) stage_.Follow();  // a run that was quit
     if (scan_) scan_->Finish(stage_);
 }
 

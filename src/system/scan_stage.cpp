@@ -73,7 +73,8 @@ void ScanStage::AddLoops(LoopChanges news) {
 }
 
 void ScanStage::SaveIfDue(const MappingStage& mapping) {
-    if (!thread_.failed() && Due(progress_.last_stamp_s)) Checkpoint(mapping, false);
+    if (!thread_.failed() && !mapping.following() && Due(progress_.last_stamp_s))
+        Checkpoint(mapping, false);
 }
 
 bool ScanStage::Due(double stamp_s) const {
