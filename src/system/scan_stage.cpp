@@ -13,6 +13,8 @@ namespace tessera {
 namespace {
 
 constexpr std::uint32_t kNever = ~0u;  // not a block's revision: the block must be saved
+// Raw frames that are worth a checkpoint, and the most that wait for one.
+constexpr std::size_t kManyRaw = 15, kMostRaw = 90;
 
 }  // namespace
 
@@ -79,6 +81,8 @@ void ScanStage::SaveIfDue(const MappingStage& mapping) {
 
 bool ScanStage::Due(double stamp_s) const {
     if (!last_stamp_s_) return thread_.idle();
+    const std::size_t raw = pending_->raw_frames.size();
+    if (raw >= kManyRaw && (thread_.idle() || (wait_ && raw >= kMostRaw))) return true;
     const double longer_s =
         std::max(std::chrono::duration<double>(Clock::now() - last_time_).count(),
                  std::abs(stamp_s - *last_stamp_s_));
@@ -86,10 +90,9 @@ bool ScanStage::Due(double stamp_s) const {
            (thread_.idle() || (wait_ && longer_s >= 2 * config_.interval_s));
 }
 
-// Keeps a copy, which the writer compresses. If the writer is far behind, frames are dropped to
-// bound the memory.
+// Keeps a copy, which the writer compresses. If the writer is far behind, live frames are dropped
+// to bound the memory.
 void ScanStage::AddRaw(const Frame& frame) {
-    constexpr std::size_t kMostRaw = 90;
     if (wait_ || pending_->raw_frames.size() < kMostRaw) {
         pending_->raw_frames.emplace_back(progress_.frames, std::make_unique<Frame>(frame));
     } else if (!std::exchange(left_out_, true)) {

@@ -66,5 +66,16 @@ TEST(ScanCheckpoints, NoneLacksWhatIsStillToFollowACorrectedMap) {
     EXPECT_EQ(saved.Content().path.size(), 3u);
 }
 
+// However long the interval, so that they do not fill the memory, and live none is dropped.
+TEST(ScanCheckpoints, RawFramesDoNotWaitForTheInterval) {
+    for (const bool wait : {false, true}) {
+        Saved saved({.interval_s = 60, .frames = ScanConfig::Frames::kAll}, wait);
+        for (int i = 0; i < 20; ++i) saved.Add(i);
+        const ScanContent content = saved.Content();
+        EXPECT_GE(content.frames.size(), 15u) << wait;
+        EXPECT_EQ(content.frames.size(), content.path.size()) << wait;
+    }
+}
+
 }  // namespace
 }  // namespace tessera
