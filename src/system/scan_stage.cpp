@@ -71,7 +71,7 @@ void ScanStage::AddLoops(LoopChanges news) {
     path_log_.Place(news, *pending_);
     std::ranges::move(news.keyframes, std::back_inserter(pending_->keyframes));
     std::ranges::move(news.poses, std::back_inserter(pending_->poses));
-    pending_->loops = std::move(news.progress);
+    if (news.progress) pending_->loops = std::move(news.progress);
 }
 
 void ScanStage::SaveIfDue(const MappingStage& mapping) {

@@ -3,6 +3,7 @@
 
 #include "mapping/analytic_fields.h"
 #include "support/temp_folder.h"
+#include "system/scan_restore.h"
 #include "system/scan_stage.h"
 
 namespace tessera {
@@ -75,6 +76,19 @@ TEST(ScanCheckpoints, RawFramesDoNotWaitForTheInterval) {
         EXPECT_GE(content.frames.size(), 15u) << wait;
         EXPECT_EQ(content.frames.size(), content.path.size()) << wait;
     }
+}
+
+// The frames may be newer than what the file says of the next one.
+TEST(ScanCheckpoints, AResumedScanUsesNoOrdinalTwice) {
+    ScanContent scan;
+    scan.loops.next_ordinal = 3;
+    EXPECT_EQ(TakeLoopMemory(scan).next_ordinal, 3);
+    for (const std::int64_t ordinal : {2, 3, 4}) {
+        FrameRecord& frame = scan.frames.emplace_back();
+        frame.in_store = true;
+        frame.stored.ordinal = ordinal;
+    }
+    EXPECT_EQ(TakeLoopMemory(scan).next_ordinal, 5);
 }
 
 }  // namespace
