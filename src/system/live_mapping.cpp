@@ -231,7 +231,7 @@ void LiveMapping::End() {
 }
 
 void LiveMapping::Save(const ViewerCommand& command) {
-    life_.SaveAfterEnd(command, [this] { return loops_ ? loops_->TakeNews() : LoopChanges(); });
+    life_.SaveAfterEnd(command, [this] { return loops_ ? loops_->TakeAll() : LoopChanges(); });
 }
 
 }  // namespace tessera
