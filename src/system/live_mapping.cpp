@@ -214,6 +214,7 @@ void LiveMapping::Reset() {
 // ---- The end.
 
 void LiveMapping::End() {
+    if (labelling_ && !links_.quit.load()) labelling_->Finish();
     while (labelling_ && labelling_->has_answer()) TakeLabels();
     if (loops_ && !links_.quit.load() && !only_localise_) {
         const auto take_all = [this] {

@@ -13,15 +13,18 @@ namespace {
 // Tells of each frame that it looks at.
 class TellingDetector : public Detector {
   public:
-    explicit TellingDetector(std::vector<std::promise<double>>& looked) : looked_(looked) {}
+    explicit TellingDetector(std::vector<std::promise<double>>& looked, double ms = 0)
+        : looked_(looked), ms_(ms) {}
     Result<std::vector<Detection>> Detect(const Frame& frame) override {
         if (calls_ < looked_.size()) looked_[calls_++].set_value(frame.stamp_s);
+        WaitFor(ms_);
         return std::vector<Detection>{};
     }
     const std::vector<std::string>& class_names() const override { return names_; }
 
   private:
     std::vector<std::promise<double>>& looked_;
+    double ms_;  // how long it takes
     std::size_t calls_ = 0;
     std::vector<std::string> names_{"cup"};
 };
@@ -67,6 +70,13 @@ class LiveMappingTest : public EngineTest {
         task.tracked->report.track.status = TrackStatus::kGood;
         task.tracked->to_fuse = fused;
         return task;
+    }
+    // Stamps of the frames whose detections were reported since the last call.
+    std::vector<double> Labelled() {
+        std::vector<double> stamps_s;
+        for (FrameOutcome outcome; links.outcomes.TryPop(outcome);)
+            if (outcome.labels) stamps_s.push_back(outcome.labels->stamp_s);
+        return stamps_s;
     }
 
     ViewerLink link;
@@ -126,12 +136,6 @@ TEST_F(LiveMappingTest, EveryAnswerOfTheDetectorIsReported) {
     CpuBackend device;
     LiveMapping mapping(config, source, &device, nullptr, links);
     ASSERT_TRUE(mapping.Start(Cups(std::make_unique<TellingDetector>(looked)), {}, {}).ok());
-    const auto labelled = [&] {
-        std::vector<double> stamps_s;
-        for (FrameOutcome outcome; links.outcomes.TryPop(outcome);)
-            if (outcome.labels) stamps_s.push_back(outcome.labels->stamp_s);
-        return stamps_s;
-    };
     const auto send = [&](double stamp_s) {
         mapping.Send(Task(stamp_s, stamp_s == 1, true));
         links.mapping.Wait([&] { return mapping.HasAnswersToTake(); });
@@ -139,11 +143,22 @@ TEST_F(LiveMappingTest, EveryAnswerOfTheDetectorIsReported) {
     for (const double stamp_s : {1.0, 2.0}) {
         send(stamp_s);
         while (mapping.HasAnswersToTake()) mapping.TakeAnswersHere();
-        EXPECT_EQ(labelled(), std::vector{stamp_s});
+        EXPECT_EQ(Labelled(), std::vector{stamp_s});
     }
     send(3);
     mapping.Finish();
-    EXPECT_EQ(labelled(), std::vector{3.0});
+    EXPECT_EQ(Labelled(), std::vector{3.0});
+}
+
+// A short recording and a slow detector.
+TEST_F(LiveMappingTest, TheDetectionUnderWayAtTheEndIsWaitedFor) {
+    std::vector<std::promise<double>> looked(1);
+    LiveMapping mapping(config, source, nullptr, nullptr, links);
+    ASSERT_TRUE(mapping.Start(Cups(std::make_unique<TellingDetector>(looked, 100)), {}, {}).ok());
+    mapping.Send(Task(1, true, true));
+    looked[0].get_future().wait();
+    mapping.Finish();
+    EXPECT_EQ(Labelled(), std::vector{1.0});
 }
 
 TEST_F(LiveMappingTest, AFrameThatWaitedWhenTheDetectorFailedOnlyComesBack) {
