@@ -48,6 +48,7 @@ struct MapUpdate {
     int world = 0;
     std::unique_ptr<BlockMap> field;
     Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();  // with `field`
+    bool first = false;  // answers the first frame of a part, fused or not
 };
 
 // Mapping to tracking: what a detector reports as movable, in a frame that was tracked in that map.

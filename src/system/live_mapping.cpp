@@ -130,7 +130,7 @@ void LiveMapping::MapFrame(MappingTask& task) {
     life_.Fuse(tracked, outcome);
     // Tracking waits for the answer to a first frame, fused or not.
     if (!one_thread_ && (tracked.report.first || tracked.report.fused || life_.stage().has_delta()))
-        SendMapUpdate();
+        SendMapUpdate(tracked.report.first);
     if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
     life_.Record(*task.frame, tracked, 0, outcome);
     life_.Save(outcome);
@@ -149,8 +149,9 @@ void LiveMapping::MapFrame(MappingTask& task) {
 
 // The queue has room: each update answers a frame that tracking sent after taking all earlier
 // updates, and corrections have reserved places (UpdateFits).
-void LiveMapping::SendMapUpdate() {
+void LiveMapping::SendMapUpdate(bool first) {
     MapUpdate update{links_.deltas.Take(), world_, nullptr};
+    update.first = first;
     life_.stage().CollectDelta(*update.delta);
     TESSERA_CHECK(links_.map_updates.TryPush(std::move(update)), "more map updates than frames");
 }

@@ -3,8 +3,10 @@
 
 #include <chrono>
 #include <future>
+#include <thread>
 
 #include "system/engine_fixture.h"
+#include "system/live_tracking.h"
 #include "system/room_frames.h"
 
 namespace tessera {
@@ -93,7 +95,42 @@ TEST_F(LiveMappingTest, TrackingGetsAnAnswerToAFirstFrameThatIsNotFused) {
     mapping.Send(Task(1, true, false));
     mapping.Send(Task(2, false, false));
     mapping.Finish();
-    EXPECT_EQ(links.map_updates.size(), 1u);
+    ASSERT_EQ(links.map_updates.size(), 1u);
+    MapUpdate answer;
+    links.map_updates.TryPop(answer);
+    EXPECT_TRUE(answer.first);
+}
+
+// Also if a corrected map, which lacks the frame, comes just before its answer. With a device
+// nobody but this test sends updates.
+TEST_F(LiveMappingTest, TheSecondFrameOfAPartIsTrackedInTheMapOfTheFirst) {
+    CpuBackend device;
+    LiveMapping mapping(config, source, &device, nullptr, links);
+    ASSERT_TRUE(mapping.Start({}, {}, {}).ok());
+    LiveTracking tracking({config, source.camera, nullptr, nullptr, std::nullopt}, {}, links,
+                          mapping);
+    FrameOutcome outcome;
+    const auto push = [&](int i) {
+        tracking.Push({std::make_unique<Frame>(RoomFrame(i)), 0, LiveClock::now()});
+    };
+    const auto next = [&] { owner.Wait([&] { return links.outcomes.TryPop(outcome); }); };
+    push(0);
+    next();
+    ASSERT_TRUE(outcome.report.first);
+    push(1);
+    MapUpdate corrected, answer;
+    corrected.field =
+        std::make_unique<BlockMap>(config.pipeline.map, config.pipeline.trackers.layers());
+    ASSERT_TRUE(links.map_updates.TryPush(std::move(corrected)));
+    while (!links.map_updates.empty()) std::this_thread::yield();
+    answer.first = true;
+    answer.delta = std::make_unique<MapDelta>();
+    mapping.life().stage().CollectWhole(*answer.delta);
+    ASSERT_TRUE(links.map_updates.TryPush(std::move(answer)));
+    next();
+    EXPECT_EQ(outcome.report.index, 1);
+    EXPECT_TRUE(outcome.report.tracked()) << outcome.report.track.reason;
+    tracking.Finish();
 }
 
 // What mapping still sends of the old world is not the new world's map. Tracking is slow, so that
