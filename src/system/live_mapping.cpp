@@ -40,10 +40,15 @@ Status LiveMapping::Start(Labelling labelling, OpenDetectorFunction open_detecto
                 TakeAnswers();
                 Process(task);
             },
-            WorkerOptions{.wake = &links_.mapping,
-                          .has_idle_work = [this] { return HasAnswers(); },
-                          .idle = [this] { TakeAnswers(); },
-                          .end = [this](bool) { End(); }});
+            WorkerOptions{
+                .wake = &links_.mapping,
+                .has_idle_work = [this] { return HasAnswers() || life_.feed().MeshWaits(); },
+                .idle =
+                    [this] {
+                        TakeAnswers();
+                        if (life_.feed().Paused()) life_.SendMesh();
+                    },
+                .end = [this](bool) { End(); }});
     return Status::Ok();
 }
 

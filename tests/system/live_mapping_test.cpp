@@ -133,6 +133,30 @@ TEST_F(LiveMappingTest, TheSecondFrameOfAPartIsTrackedInTheMapOfTheFirst) {
     tracking.Finish();
 }
 
+// Without another frame. The window takes more than its queue has room for.
+TEST_F(LiveMappingTest, WhilePausedTheWindowGetsTheRestOfTheMesh) {
+    config.live.mesh_blocks = 5;
+    link.paused.store(true);
+    LiveLinks shown(false, notices, owner, &link);
+    LiveMapping mapping(config, source, nullptr, &link, shown);
+    ASSERT_TRUE(mapping.Start({}, {}, {}).ok());
+    mapping.Send(Task(1, true, true));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    std::size_t updates = 0;
+    const std::size_t wanted = 3 * link.meshes.capacity();
+    while (updates < wanted && std::chrono::steady_clock::now() < end) {
+        MeshUpdate update;
+        if (!link.meshes.TryPop(update)) {
+            std::this_thread::yield();
+            continue;
+        }
+        ++updates;
+        link.system.Notify();
+    }
+    EXPECT_EQ(updates, wanted);
+    mapping.Finish();
+}
+
 // What mapping still sends of the old world is not the new world's map. Tracking is slow, so that
 // it comes while the first frame is tracked.
 TEST_F(LiveMappingTest, NoFrameAfterAResetIsLost) {
