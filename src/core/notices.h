@@ -8,6 +8,11 @@
 
 namespace tessera {
 
+// Appends a message, unless it is empty, to others for the same line.
+inline void AddNote(const std::string& note, std::string& notes) {
+    if (!note.empty()) notes += (notes.empty() ? "" : "; ") + note;
+}
+
 // Any thread may tell and take. If nobody takes for long, the oldest messages are dropped.
 class Notices {
   public:

@@ -98,7 +98,8 @@ bool DecodeKeyframe(std::span<const std::uint8_t> bytes, const PinholeCamera& ca
 // LoopCloser's state besides keyframes, frames and passages.
 struct LoopProgress {
     std::vector<PoseEdge> edges;
-    std::int64_t next_ordinal = 0;  // next ordinal of the frame store
+    // Next ordinal of the frame store. The scan may have newer frames.
+    std::int64_t next_ordinal = 0;
     std::int32_t loops = 0;
     bool corrected = false;
 

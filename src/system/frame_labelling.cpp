@@ -4,7 +4,10 @@ namespace tessera {
 
 void FrameLabelling::Detect(const Frame& frame, bool always, TrackingStage& tracking) {
     detected_.reset();
-    if (!always && !owed_ && frames_ % config_.stride != 0) return;
+    const std::int64_t unfused = unfused_++;
+    const bool due =
+        unfused > 0 ? unfused % config_.stride == 0 : unused_ || frames_ % config_.stride == 0;
+    if (!always && !owed_ && !due) return;
     LabelReport report;
     std::string failure;
     owed_ = stage_.LacksColour(frame);
@@ -14,10 +17,13 @@ void FrameLabelling::Detect(const Frame& frame, bool always, TrackingStage& trac
     }
     if (!report.moving.depth_m.empty()) tracking.HintMoving(report.moving, std::nullopt);
     detected_ = std::move(report);
+    unused_ = true;
 }
 
 std::optional<LabelReport> FrameLabelling::TakeDetections() {
     ++frames_;
+    unfused_ = 0;
+    if (detected_) unused_ = false;
     return std::exchange(detected_, std::nullopt);
 }
 

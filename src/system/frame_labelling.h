@@ -23,8 +23,9 @@ class FrameLabelling {
     // Continues a scan in which so many frames were fused with labelling on.
     void Resume(std::int64_t frames) { frames_ = frames; }
 
-    // Detects in every stride-th fused frame, or `always`. If that lacks colour, in the next one
-    // that has it. Before the frame is tracked, because people in it may have to be masked.
+    // Detects in every stride-th fused frame, or `always`, and in every stride-th frame while none
+    // is fused. If that lacks colour, in the next one that has it. Before the frame is tracked,
+    // because people in it may have to be masked.
     void Detect(const Frame& frame, bool always, TrackingStage& tracking);
     // Call after the frame was fused: counts it, and returns its detections. Nothing if it was not
     // looked at.
@@ -52,7 +53,9 @@ class FrameLabelling {
     int choice_ = 0;  // ViewerSettings::detector_choice
     DetectorChange begun_;
     std::int64_t frames_ = 0;
-    bool owed_ = false;  // a frame that was due lacked colour
+    std::int64_t unfused_ = 0;  // frames since the last that was fused
+    bool owed_ = false;         // a frame that was due lacked colour
+    bool unused_ = false;       // the last one detected in was not fused
 };
 
 }  // namespace tessera

@@ -25,6 +25,7 @@ FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Ba
 
 Status FrameMapping::StartScan(ScanPlan plan) {
     only_localise_ = plan.only_localise();
+    continued_ = plan.resumed.has_value();
     if (only_localise_) {
         loops_ = TakeLoopMemory(*plan.resumed);
         return RestoreMap({}, *plan.resumed, stage_);
@@ -77,10 +78,8 @@ void FrameMapping::Label(const DepthImage& depth_m, const Eigen::Isometry3d& T_w
 void FrameMapping::Record(const Frame& frame, const TrackedFrame& tracked,
                           std::int64_t labelled_frames, FrameOutcome& outcome) {
     Stopwatch watch;
-    if (scan_)
-        scan_->AddFrame(frame, tracked, labelled_frames);
-    else if (has_viewer_)
-        past_.push_back(RecordOf(frame, tracked));
+    if (scan_) scan_->AddFrame(frame, tracked, labelled_frames);
+    if (has_viewer_ && !continued_) past_.push_back(RecordOf(frame, tracked));
     outcome.scan_ms = watch.LapMs();
 }
 
@@ -126,6 +125,7 @@ void FrameMapping::LoadAround(const Eigen::Isometry3d& T_world_camera) {
 void FrameMapping::Reset() {
     stage_.Reset();
     if (scan_) scan_->Reset();
+    continued_ = false;
     past_.clear();
     if (paging_) paging_->Reset();
     SendMesh();
@@ -150,15 +150,21 @@ void FrameMapping::SaveScan(const std::string& path) { notices_.Tell(StartScanNo
 
 std::string FrameMapping::StartScanNow(const std::string& path) {
     if (only_localise_) return kMapIsKept;
-    if (scan_) return "the scan is already being saved: " + scan_->path();
+    if (scan_) return ScanText("the scan is already being saved: ");
     if (config_.loops.refine_calibration)
         return "cannot save a scan with calibration.refine: its frames would have two different "
                "calibrations";
     Result<ScanPlan> plan = BeginScan(path, source_, config_);
     if (!plan.ok()) return plan.message();
     scan_.emplace(std::move(plan.value()), config_.scan, wait_, config_.loops.enabled, notices_);
-    scan_->AddPast(std::exchange(past_, {}));
+    scan_->AddPast(past_);
     return "scan saved; it is kept up to date from now on: " + path;
+}
+
+std::string FrameMapping::ScanText(const char* if_saved) const {
+    return (scan_->failed() ? "this scan could not be written and is no longer saved: "
+                            : if_saved) +
+           scan_->path();
 }
 
 // ---- The end.
@@ -166,6 +172,7 @@ std::string FrameMapping::StartScanNow(const std::string& path) {
 void FrameMapping::Finish() {
     if (mesh_writer_) mesh_writer_->Finish();
     if (paging_) paging_->Close();
+    while (scan_ && stage_.following()) stage_.Follow();  // a run that was quit
     if (scan_) scan_->Finish(stage_);
 }
 
@@ -177,12 +184,17 @@ void FrameMapping::SaveAfterEnd(const ViewerCommand& command,
         if (mesh_writer_) mesh_writer_->Finish();
     }
     if (command.kind != ViewerCommand::Kind::kSaveScan) return;
-    if (scan_) return notices_.Tell("the scan is already saved: " + scan_->path());
+    // One that was continued has a path that is only in its file.
+    if (scan_ && scan_->failed() && !continued_) {
+        paging_.reset();
+        scan_.reset();
+    }
+    if (scan_) return notices_.Tell(ScanText("the scan is already saved: "));
     const std::string answer = StartScanNow(command.path);
     if (!scan_) return notices_.Tell(answer);
     scan_->AddLoops(learnt());
     scan_->Finish(stage_);
-    notices_.Tell("scan saved: " + command.path);
+    if (!scan_->failed()) notices_.Tell("scan saved: " + command.path);
 }
 
 TriangleMesh FrameMapping::TakeMesh(Status& status, bool keep_map) {

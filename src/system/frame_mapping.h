@@ -76,8 +76,8 @@ class FrameMapping {
     // Call once, after Finish. Releases the map. On error sets `status` and returns an empty mesh.
     // `keep_map`: does not release it, unless part of it is only in the scan file.
     TriangleMesh TakeMesh(Status& status, bool keep_map = false);
-    // After Finish, while the stage has a map: what the user asks to be saved then. `learnt`: by
-    // loop closure, all of it.
+    // After Finish, while the stage has a map: what the user asks to be saved then. If a scan could
+    // not be written, another path may be tried. `learnt`: by loop closure, all of it.
     void SaveAfterEnd(const ViewerCommand& command, const std::function<LoopChanges()>& learnt);
 
     MappingStage& stage() { return stage_; }
@@ -105,17 +105,19 @@ class FrameMapping {
     };
     void WriteMesh(const SavedMesh& saved);
     std::string StartScanNow(const std::string& path);
+    std::string ScanText(const char* if_saved) const;
 
     const RunConfig config_;
     const SourceInfo source_;
     const bool has_viewer_, wait_;
-    bool only_localise_ = false;
+    bool only_localise_ = false, continued_ = false;  // a scan
     Notices& notices_;
     MappingStage stage_;
     std::optional<ScanStage> scan_;            // set if a scan is saved
     std::optional<LoopCloser::Memory> loops_;  // of a scan in which the camera is only localised
     std::unique_ptr<PagingStage> paging_;      // null without a memory limit
-    // With a window: frames so far, in case the user starts saving a scan mid-run.
+    // With a window: frames so far, in case the user starts saving a scan mid-run, or at the end
+    // another one.
     std::vector<PathRecord> past_;
     LabelSettings label_settings_;
     std::string labels_warning_;  // as last told

@@ -116,6 +116,9 @@ class LabellingThread {
     // Opens another detector, while the present one goes on; see LabellingStage::Change.
     void Change(std::string name) { wanted_.Push(std::move(name)); }
     bool TryTake(DetectorChange& change) { return changes_.TryPop(change); }
+    // Call after the last Offer, then take the answers. Waits until all frames offered were looked
+    // at.
+    void Finish() { worker_.Finish(); }
 
   private:
     void Detect(Job& job);

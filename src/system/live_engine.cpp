@@ -5,7 +5,7 @@
 namespace tessera {
 
 LiveEngine::LiveEngine(EngineInput input)
-    : links_(input.device != nullptr, notices_, outcome_wake_),
+    : links_(input.device != nullptr, notices_, outcome_wake_, input.viewer),
       reading_(input, links_),
       mapping_(input.config, reading_.source(), input.device, input.viewer, links_) {
     status_ = Start(input);

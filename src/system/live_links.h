@@ -48,6 +48,7 @@ struct MapUpdate {
     int world = 0;
     std::unique_ptr<BlockMap> field;
     Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();  // with `field`
+    bool first = false;  // answers the first frame of a part, fused or not
 };
 
 // Mapping to tracking: what a detector reports as movable, in a frame that was tracked in that map.
@@ -65,9 +66,12 @@ struct LiveLinks {
     // Corrected maps on their way to tracking: another is passed on only while fewer updates wait.
     static constexpr std::size_t kCorrections = 3;
 
-    // With a device the tracking thread also maps, so both sleep on one Wake.
-    LiveLinks(bool one_thread, Notices& run_notices, Wake& owner)
-        : mapping(one_thread ? tracking : own_mapping),
+    // With a device the tracking thread also maps, so both sleep on one Wake. Else mapping sleeps
+    // on that of the window's system, if there is one, which outlives the object.
+    LiveLinks(bool one_thread, Notices& run_notices, Wake& owner, ViewerLink* viewer = nullptr)
+        : mapping(one_thread          ? tracking
+                  : viewer != nullptr ? viewer->system
+                                      : own_mapping),
           notices(run_notices),
           outcomes(kOutcomes, owner) {}
 

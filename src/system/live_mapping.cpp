@@ -40,10 +40,15 @@ Status LiveMapping::Start(Labelling labelling, OpenDetectorFunction open_detecto
                 TakeAnswers();
                 Process(task);
             },
-            WorkerOptions{.wake = &links_.mapping,
-                          .has_idle_work = [this] { return HasAnswers(); },
-                          .idle = [this] { TakeAnswers(); },
-                          .end = [this](bool) { End(); }});
+            WorkerOptions{
+                .wake = &links_.mapping,
+                .has_idle_work = [this] { return HasAnswers() || life_.feed().MeshWaits(); },
+                .idle =
+                    [this] {
+                        TakeAnswers();
+                        if (life_.feed().Paused()) life_.SendMesh();
+                    },
+                .end = [this](bool) { End(); }});
     return Status::Ok();
 }
 
@@ -78,6 +83,7 @@ void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels) {
                                   life_.saving(),
                                   life_.TakeLoops()};
     settings.tracked_layers = config_.pipeline.trackers.layers();
+    settings.only_answers = only_localise_;
     if (life_.saving())
         settings.make_pager = RebuildPagers(config_.pipeline, source_.camera, life_.scan_path());
     loops_ = std::make_unique<LoopThread>(
@@ -129,7 +135,7 @@ void LiveMapping::MapFrame(MappingTask& task) {
     life_.Fuse(tracked, outcome);
     // Tracking waits for the answer to a first frame, fused or not.
     if (!one_thread_ && (tracked.report.first || tracked.report.fused || life_.stage().has_delta()))
-        SendMapUpdate();
+        SendMapUpdate(tracked.report.first);
     if (tracked.report.fused) WaitFor(config_.live.extra_mapping_ms);
     life_.Record(*task.frame, tracked, 0, outcome);
     life_.Save(outcome);
@@ -148,8 +154,9 @@ void LiveMapping::MapFrame(MappingTask& task) {
 
 // The queue has room: each update answers a frame that tracking sent after taking all earlier
 // updates, and corrections have reserved places (UpdateFits).
-void LiveMapping::SendMapUpdate() {
+void LiveMapping::SendMapUpdate(bool first) {
     MapUpdate update{links_.deltas.Take(), world_, nullptr};
+    update.first = first;
     life_.stage().CollectDelta(*update.delta);
     TESSERA_CHECK(links_.map_updates.TryPush(std::move(update)), "more map updates than frames");
 }
@@ -213,6 +220,7 @@ void LiveMapping::Reset() {
 // ---- The end.
 
 void LiveMapping::End() {
+    if (labelling_ && !links_.quit.load()) labelling_->Finish();
     while (labelling_ && labelling_->has_answer()) TakeLabels();
     if (loops_ && !links_.quit.load() && !only_localise_) {
         const auto take_all = [this] {
@@ -230,7 +238,7 @@ void LiveMapping::End() {
 }
 
 void LiveMapping::Save(const ViewerCommand& command) {
-    life_.SaveAfterEnd(command, [this] { return loops_ ? loops_->TakeNews() : LoopChanges(); });
+    life_.SaveAfterEnd(command, [this] { return loops_ ? loops_->TakeAll() : LoopChanges(); });
 }
 
 }  // namespace tessera

@@ -52,7 +52,7 @@ class LiveMapping {
     void TakeAnswers();
     void Process(MappingTask& task);
     void MapFrame(MappingTask& task);
-    void SendMapUpdate();
+    void SendMapUpdate(bool first);
     bool DetectionDue(double stamp_s) const;
     void Offer(MappingTask& task);
     void TakeLabels();

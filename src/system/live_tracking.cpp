@@ -119,10 +119,10 @@ void LiveTracking::TakeSettings() {
     if (loops_ != nullptr) loops_->SetSeeking(state_->seeking);
 }
 
-// Returns whether there was any of this world.
+// Returns whether one of this world answers a first frame.
 bool LiveTracking::ApplyMapUpdates() {
     MapUpdate update;
-    bool any = false;
+    bool answered = false;
     while (links_.map_updates.TryPop(update)) {
         const bool ours = update.world == state_->version.world;
         if (ours && update.field) {
@@ -133,9 +133,9 @@ bool LiveTracking::ApplyMapUpdates() {
         }
         if (ours && update.delta) ApplyDelta(*update.delta, *state_->field);
         links_.deltas.Give(std::move(update.delta));
-        any |= ours;
+        answered |= ours && update.first;
     }
-    return any;
+    return answered;
 }
 
 void LiveTracking::TakeHint() {

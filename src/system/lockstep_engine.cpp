@@ -224,7 +224,7 @@ TriangleMesh LockstepEngine::TakeMesh() {
 
 void LockstepEngine::Save(const ViewerCommand& command) {
     mapping_.SaveAfterEnd(command,
-                          [this] { return loops_ ? loops_->TakeChanges() : LoopChanges(); });
+                          [this] { return loops_ ? loops_->TakeAll() : LoopChanges(); });
 }
 
 }  // namespace tessera

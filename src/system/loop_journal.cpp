@@ -51,9 +51,19 @@ LoopChanges LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames)
         poses_[at] = poses;
         news.poses.emplace_back(id, poses);
     }
-    news.progress = {closer.graph().edges(), closer.store().next_ordinal(), closer.graph().loops(),
-                     closer.graph().corrected()};
+    news.progress = TakeProgress(closer, most_frames >= frames.size());
     return news;
+}
+
+std::optional<LoopProgress> LoopJournal::TakeProgress(const LoopCloser& closer, bool with_ordinal) {
+    const ScanGraph& graph = closer.graph();
+    const Progress now{graph.edges().size(), graph.loops(), graph.corrected(),
+                       closer.store().next_ordinal()};
+    Progress before = progress_.value_or(Progress{});
+    if (!with_ordinal) before.next_ordinal = now.next_ordinal;
+    if (progress_ && before == now) return std::nullopt;
+    progress_ = now;
+    return LoopProgress{graph.edges(), now.next_ordinal, now.loops, now.corrected};
 }
 
 }  // namespace tessera

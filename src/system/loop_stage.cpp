@@ -3,20 +3,12 @@
 #include <cmath>
 #include <utility>
 
+#include "core/notices.h"
 #include "core/stopwatch.h"
 
 namespace tessera {
 
 using Question = CameraSearch::Question;
-
-namespace {
-
-void AddNote(const std::string& note, std::string& warning) {
-    if (note.empty()) return;
-    warning += (warning.empty() ? "" : "; ") + note;
-}
-
-}  // namespace
 
 FieldSettings FieldSettingsOf(const PipelineConfig& pipeline, const PinholeCamera& camera) {
     FieldSettings settings;

@@ -58,6 +58,11 @@ class LoopStage {
         return finished_ ? journal_.Take(closer_, closer_.store().frames().size())
                          : journal_.Take(closer_);
     }
+    // For another scan file, after Finish.
+    LoopChanges TakeAll() {
+        journal_ = LoopJournal();
+        return TakeChanges();
+    }
 
   private:
     bool Find(const Frame& frame, const BlockMap& map, const CameraSearch::Step& step,

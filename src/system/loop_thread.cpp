@@ -142,7 +142,7 @@ void LoopThread::BeginWorld(int world) {
     closer_ =
         std::make_unique<LoopCloser>(settings_.loops, settings_.field, settings_.depth_units_per_m,
                                      settings_.labels, settings_.make_pager);
-    journal_.Begin(*closer_);
+    journal_ = LoopJournal();
 }
 
 void LoopThread::Do(Job& job) {

@@ -29,6 +29,7 @@ class LoopThread {
         std::optional<LoopCloser::Memory> resumed;  // of an earlier scan that is continued
         LoopCloser::MakePager make_pager = {};
         BlockMap::Layers tracked_layers = BlockMap::Layers::kFieldOnly;  // of Update::field
+        bool only_answers = false;  // the map stays, also one that a resumed scan would correct
     };
     // Apply updates in order: `news` refers to the map after all earlier corrections and the one in
     // this update.
@@ -101,8 +102,11 @@ class LoopThread {
     // After Finish: the final poses of the tracked frames, and the refined calibration.
     std::vector<StampedPose> Path() const { return closer_->Path(); }
     const std::optional<CalibrationReport>& calibration() const { return closer_->calibration(); }
-    // After Finish: all that a scan file does not have yet.
-    LoopChanges TakeNews() { return journal_.Take(*closer_, closer_->store().frames().size()); }
+    // After Finish: everything, for another scan file.
+    LoopChanges TakeAll() {
+        journal_ = LoopJournal();
+        return TakeNews();
+    }
     std::size_t waiting() const { return worker_.waiting(); }
     // Of the fused frames offered while this many wait whole, one in how many is kept whole: a
     // stretch of the path for which the thread is late is still covered. 0 for none.
@@ -137,10 +141,13 @@ class LoopThread {
     bool HasIdleWork() const;
     void WorkIdly();
     void Conclude();
+    // All that a scan file does not have yet.
+    LoopChanges TakeNews() { return journal_.Take(*closer_, closer_->store().frames().size()); }
     void BeginWorld(int world);
     bool MayCorrect() const {
-        return seeking_.load() && closer_->HasWork() && map_.load() == Asked::kNo &&
-               !settled_.load() && updates_.size() < kUpdates - kForCorrections;
+        return !settings_.only_answers && seeking_.load() && closer_->HasWork() &&
+               map_.load() == Asked::kNo && !settled_.load() &&
+               updates_.size() < kUpdates - kForCorrections;
     }
     void Do(Job& job);
     void AddFrame(Job& job);

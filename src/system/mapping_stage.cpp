@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "core/notices.h"
 #include "render/vertex_weight.h"
 #include "scan/stored_mesh.h"
 
@@ -32,10 +33,11 @@ void MappingStage::Fuse(TrackedFrame& tracked) {
                         integrator_->changed_blocks().end());
     }
     if (report.fusion.refused_blocks > 0)
-        report.warning =
+        AddNote(
             fmt::format("{} of {} new blocks refused: {}", report.fusion.refused_blocks,
                         report.fusion.refused_blocks + report.fusion.new_blocks,
-                        report.fusion.map_full ? integrator_->limit() : "mapping.max_new_blocks");
+                        report.fusion.map_full ? integrator_->limit() : "mapping.max_new_blocks"),
+            report.warning);
 }
 
 const BlockMap& MappingStage::map() const {

@@ -62,6 +62,7 @@ class RunControl {
         paused_ = paused;
         if (!paused) steps_ = 0;
         viewer_->paused.store(paused);
+        viewer_->system.Notify();
     }
 
     ViewerLink* viewer_;

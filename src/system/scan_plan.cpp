@@ -20,13 +20,26 @@ std::vector<ScanKey> KeysOf(const ScanMeta& meta) {
             {"loops.enabled", meta.loops ? "true" : "false"}};
 }
 
+// Names the values that differ, with all their digits.
 Status CheckCamera(const std::string& path, const ScanMeta& meta, const SourceInfo& source) {
     const PinholeCamera &was = meta.camera, &is = source.camera;
     if (was == is) return Status::Ok();
-    return Status::Error(fmt::format(
-        "{}: was made with a camera of {} x {}, fx {:.2f}, but {} has {} x {}, fx {:.2f}; use the "
-        "same camera, or start another scan",
-        path, was.width, was.height, was.fx, source.name, is.width, is.height, is.fx));
+    std::string of_scan, of_source;
+    const auto compare = [&](const char* name, auto a, auto b) {
+        if (a == b) return;
+        of_scan += fmt::format("{}{} {}", of_scan.empty() ? "" : ", ", name, a);
+        of_source += fmt::format("{}{} {}", of_source.empty() ? "" : ", ", name, b);
+    };
+    compare("width", was.width, is.width);
+    compare("height", was.height, is.height);
+    compare("fx", was.fx, is.fx);
+    compare("fy", was.fy, is.fy);
+    compare("cx", was.cx, is.cx);
+    compare("cy", was.cy, is.cy);
+    return Status::Error(
+        fmt::format("{}: was made with a camera of {}, but {} has {}; use the same camera, or "
+                    "start another scan",
+                    path, of_scan, source.name, of_source));
 }
 
 // A recording may be named in several ways: d, d/, ./d or by its whole path.

@@ -1,5 +1,6 @@
 #include "system/scan_restore.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/se3.h"
@@ -40,6 +41,8 @@ LoopCloser::Memory TakeLoopMemory(ScanContent& scan) {
     for (FrameRecord& frame : scan.frames)
         if (frame.in_store) memory.frames.push_back(std::move(frame.stored));
     memory.next_ordinal = scan.loops.next_ordinal;
+    for (const StoredFrame& frame : memory.frames)
+        memory.next_ordinal = std::max(memory.next_ordinal, frame.ordinal + 1);
     memory.graph.loops = scan.loops.loops;
     memory.graph.corrected = scan.loops.corrected;
     return memory;

@@ -13,6 +13,8 @@ namespace tessera {
 namespace {
 
 constexpr std::uint32_t kNever = ~0u;  // not a block's revision: the block must be saved
+// Raw frames that are worth a checkpoint, and the most that wait for one.
+constexpr std::size_t kManyRaw = 15, kMostRaw = 90;
 
 }  // namespace
 
@@ -69,15 +71,18 @@ void ScanStage::AddLoops(LoopChanges news) {
     path_log_.Place(news, *pending_);
     std::ranges::move(news.keyframes, std::back_inserter(pending_->keyframes));
     std::ranges::move(news.poses, std::back_inserter(pending_->poses));
-    pending_->loops = std::move(news.progress);
+    if (news.progress) pending_->loops = std::move(news.progress);
 }
 
 void ScanStage::SaveIfDue(const MappingStage& mapping) {
-    if (!thread_.failed() && Due(progress_.last_stamp_s)) Checkpoint(mapping, false);
+    if (!thread_.failed() && !mapping.following() && Due(progress_.last_stamp_s))
+        Checkpoint(mapping, false);
 }
 
 bool ScanStage::Due(double stamp_s) const {
     if (!last_stamp_s_) return thread_.idle();
+    const std::size_t raw = pending_->raw_frames.size();
+    if (raw >= kManyRaw && (thread_.idle() || (wait_ && raw >= kMostRaw))) return true;
     const double longer_s =
         std::max(std::chrono::duration<double>(Clock::now() - last_time_).count(),
                  std::abs(stamp_s - *last_stamp_s_));
@@ -85,10 +90,9 @@ bool ScanStage::Due(double stamp_s) const {
            (thread_.idle() || (wait_ && longer_s >= 2 * config_.interval_s));
 }
 
-// Keeps a copy, which the writer compresses. If the writer is far behind, frames are dropped to
-// bound the memory.
+// Keeps a copy, which the writer compresses. If the writer is far behind, live frames are dropped
+// to bound the memory.
 void ScanStage::AddRaw(const Frame& frame) {
-    constexpr std::size_t kMostRaw = 90;
     if (wait_ || pending_->raw_frames.size() < kMostRaw) {
         pending_->raw_frames.emplace_back(progress_.frames, std::make_unique<Frame>(frame));
     } else if (!std::exchange(left_out_, true)) {

@@ -43,7 +43,7 @@ class ScanStage {
     void AddLoops(LoopChanges news);
     // Moves camera poses after a correction of the map.
     void Move(const Eigen::Isometry3d& T_new_old) { path_log_.Move(T_new_old); }
-    // Writes a checkpoint if one is due.
+    // Writes a checkpoint if one is due, and no corrected map lacks what is still to follow it.
     void SaveIfDue(const MappingStage& mapping);
     // Marks blocks whose labels have changed; that does not change a block's revision.
     void Touch(std::span<const BlockId> blocks);

@@ -16,10 +16,10 @@ double ViewerFeed::Send(const Frame& frame, const FrameReport& report, MappingSt
 
 // Until the window has taken the earlier meshes, changes wait in the mesher.
 double ViewerFeed::SendMesh(MappingStage& mapping) {
-    if (viewer_ == nullptr || viewer_->meshes.size() >= viewer_->meshes.capacity()) return 0;
+    if (viewer_ == nullptr || !HasRoom()) return 0;
     Stopwatch watch;
     MeshUpdate update;
-    mapping.UpdateMesh(mesh_blocks_, update);
+    waiting_ = mapping.UpdateMesh(mesh_blocks_, update);
     if (update.clear || !update.blocks.empty()) viewer_->meshes.TryPush(std::move(update));
     SendObjects(mapping);
     return watch.LapMs();
@@ -29,7 +29,7 @@ bool ViewerFeed::SendFinalMesh(MappingStage& mapping) {
     constexpr int kBlocks = 1000;  // no frame waits any more
     if (viewer_ == nullptr) return true;
     if (!std::exchange(final_begun_, true)) mapping.MeshAgain();
-    while (!final_sent_ && viewer_->meshes.size() < viewer_->meshes.capacity()) {
+    while (!final_sent_ && HasRoom()) {
         MeshUpdate update;
         final_sent_ = update.last = mapping.UpdateMesh(kBlocks, update) == 0;
         viewer_->meshes.TryPush(std::move(update));

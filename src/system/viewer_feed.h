@@ -20,17 +20,24 @@ class ViewerFeed {
 
     // Sends changes of the mesh and objects; also works without a frame.
     double SendMesh(MappingStage& mapping);
+    // The run is paused: no frame comes.
+    bool Paused() const { return viewer_ != nullptr && viewer_->paused.load(); }
+    // It is, and SendMesh has more to send. ViewerLink::system is notified when that may have
+    // become true.
+    bool MeshWaits() const { return Paused() && waiting_ > 0 && HasRoom(); }
 
     // Call after the last frame and correction, until it returns true: sends the whole mesh anew, a
     // part each time, as the window takes it. False: more is to come.
     bool SendFinalMesh(MappingStage& mapping);
 
   private:
+    bool HasRoom() const { return viewer_->meshes.size() < viewer_->meshes.capacity(); }
     void SendObjects(const MappingStage& mapping);
     void SendImages(const Frame& frame, const FrameReport& report, const MappingStage& mapping);
 
     ViewerLink* viewer_;
     int mesh_blocks_;
+    int waiting_ = 0;  // blocks that SendMesh has left
     bool show_prediction_ = true;
     bool final_begun_ = false, final_sent_ = false;
     std::uint64_t objects_revision_ = 0;     // of the labels, when objects were last sent

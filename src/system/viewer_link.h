@@ -90,7 +90,9 @@ struct ViewerCommand {
 
 // Created by the program. Shared by the system's threads and the viewer's.
 struct ViewerLink {
-    Wake viewer, system;  // each side sleeps on its own
+    // Each side sleeps on its own. The system's is notified of settings and commands, of a pause
+    // and of meshes that were taken.
+    Wake viewer, system;
 
     // System to viewer. One thread pushes frames and messages.
     NewestQueue<FrameUpdate> frames{256, viewer};

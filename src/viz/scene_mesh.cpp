@@ -35,6 +35,7 @@ bool SceneMesh::NextUpdate(ViewerLink& link) {
     pending_done_ = 0;
     pending_.blocks.clear();
     if (!link.meshes.TryPop(pending_)) return false;
+    link.system.Notify();  // there is room
     if (pending_.clear) {
         if (!before_ && surface_->store.triangles() > 0) before_ = std::move(surface_);
         surface_ = std::make_unique<Surface>(levels_);

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <future>
 #include <utility>
+#include <vector>
 
 #include "system/engine_fixture.h"
 #include "system/frame_labelling.h"
@@ -105,6 +106,27 @@ TEST_F(EngineTest, LabellingInLockstepLooksAtTheNextFrameInColour) {
         EXPECT_EQ(labelling.TakeDetections().has_value(), i % 2 == 0) << i;
     }
     EXPECT_EQ(labelling.TakeFailure(), "");
+}
+
+// By whatever frame the camera is lost, nor does every frame pay for a detector then. After it, the
+// frame of which the detections were not used is made up for.
+TEST_F(EngineTest, LabellingInLockstepKeepsItsStrideWhileNothingIsFused) {
+    config.labels.stride = 5;
+    TrackingStage tracking(config.pipeline, Source().info().camera);
+    const auto detected = [&](int lost, int found) {
+        FrameLabelling labelling(config.labels, Source().info().camera);
+        labelling.Begin(CupsInColour());
+        std::vector<int> frames;
+        for (int i = 0; i < 22; ++i) {
+            labelling.Detect(Coloured(), false, tracking);
+            if (labelling.detected()) frames.push_back(i);
+            if (i < lost || i >= found) labelling.TakeDetections();
+        }
+        return frames;
+    };
+    EXPECT_EQ(detected(22, 22), (std::vector{0, 5, 10, 15, 20}));
+    EXPECT_EQ(detected(5, 16), (std::vector{0, 5, 10, 15, 17, 21}));
+    EXPECT_EQ(detected(3, 22), (std::vector{0, 8, 13, 18}));
 }
 
 // Long before the next detection is due.

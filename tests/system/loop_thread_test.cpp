@@ -81,7 +81,7 @@ class LoopThreadTest : public testing::Test {
         for (const auto& [id, pose] : news.poses) poses[id] = pose;
         for (const StoredFrame& frame : news.frames) stored[frame.ordinal] = frame;
         for (const Keyframe& keyframe : news.keyframes) keyframes.insert(keyframe.id);
-        progress = news.progress;
+        if (news.progress) progress = *news.progress;
     }
 
     FieldSettings settings = RoomSettings();

@@ -4,6 +4,7 @@
 
 #include "mapping/analytic_fields.h"
 #include "optimize/map_warp.h"
+#include "system/room_frames.h"
 
 namespace tessera {
 namespace {
@@ -36,6 +37,20 @@ std::map<std::string, int> Numbers(MappingStage& mapping) {
     std::map<std::string, int> numbers;
     for (const MapObject& object : mapping.MeasureObjects()) numbers[object.class_name] = object.id;
     return numbers;
+}
+
+TEST(MappingStage, RefusedBlocksAreToldBesideWhatElseWasTold) {
+    PipelineConfig pipeline = SmallConfig();
+    pipeline.fusion.max_new_blocks = 10;
+    MappingStage mapping(pipeline, {0, 0}, testing_support::SmallCamera());
+    TrackedFrame tracked;
+    PrepareFrame(RoomFrame(0), pipeline.frame, tracked.prepared);
+    tracked.report.warning = "relocalised";
+    tracked.to_fuse = true;
+    mapping.Fuse(tracked);
+    ASSERT_GT(tracked.report.fusion.refused_blocks, 0);
+    EXPECT_TRUE(tracked.report.warning.starts_with("relocalised; ")) << tracked.report.warning;
+    EXPECT_TRUE(tracked.report.warning.ends_with("new blocks refused: mapping.max_new_blocks"));
 }
 
 // The window waits for this before it shows another map.

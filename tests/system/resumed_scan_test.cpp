@@ -162,6 +162,21 @@ TEST_F(Scan, WhatContradictsTheFileIsRefusedByItsKey) {
     EXPECT_EQ(refused.message().find("mapping.voxel_size_m"), 0u) << refused.message();
 }
 
+TEST_F(Scan, AnotherCameraIsRefusedByWhatDiffers) {
+    Run(false, New(), {.count = 2});
+    SourceInfo other = testing_support::BoxRoomSource().info();
+    const PinholeCamera was = other.camera;
+    other.name = "another";
+    other.camera.fy += 0.001;
+    other.camera.cx -= 0.001;
+    const Result<ScanPlan> plan = ResumeScan(path, other, config, false);
+    ASSERT_FALSE(plan.ok());
+    EXPECT_EQ(plan.message(),
+              fmt::format("{}: was made with a camera of fy {}, cx {}, but another has fy {}, "
+                          "cx {}; use the same camera, or start another scan",
+                          path, was.fy, was.cx, other.camera.fy, other.camera.cx));
+}
+
 TEST_F(Scan, OfTheSameRecordingOnlyTheRestIsRead) {
     ScanContent scan;
     scan.source_name = "box room";

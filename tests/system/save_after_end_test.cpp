@@ -1,14 +1,20 @@
 // What the user saves after a run has ended, while its window is still open.
+#include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "io/mesh_io.h"
 #include "run/scan_export.h"
+#include "scan/faulty_disk.h"
 #include "system/engine_fixture.h"
 #include "system/run_control.h"
 
 namespace tessera {
 namespace {
+
+using testing_support::DiskFault;
+using testing_support::FaultyDisk;
 
 class SaveAfterEnd : public EngineTest, public testing::WithParamInterface<bool> {
   protected:
@@ -18,8 +24,21 @@ class SaveAfterEnd : public EngineTest, public testing::WithParamInterface<bool>
         while (const auto notice = engine->TakeNotice()) all += *notice + "\n";
         return all;
     }
+    // Saves a scan that has all of the run.
+    void ExpectSaved() {
+        Notices();
+        engine->Save({Command::kSaveScan, folder / "late.scan"});
+        EXPECT_EQ(Notices(), "scan saved: " + (folder / "late.scan") + "\n");
+        std::vector<Eigen::Isometry3d> path;
+        const auto stored = MeshOfScanFile(folder / "late.scan", &path);
+        ASSERT_TRUE(stored.ok()) << stored.message();
+        EXPECT_EQ(stored.value().triangles.size(), triangles);
+        EXPECT_EQ(std::ssize(path), std::ranges::count_if(Reports(), &FrameReport::tracked));
+    }
     ViewerLink link;
     TempFolder folder;
+    std::optional<FaultyDisk> disk;  // outlives the engine
+    std::size_t triangles = 0;       // of the run's mesh
 };
 
 TEST_P(SaveAfterEnd, MeshAndScanAreThoseOfTheRun) {
@@ -48,6 +67,61 @@ TEST_P(SaveAfterEnd, MeshAndScanAreThoseOfTheRun) {
     ASSERT_TRUE(stored.ok()) << stored.message();
     EXPECT_EQ(stored.value().triangles.size(), mesh.triangles.size());
     EXPECT_EQ(path.size(), Reports().size());
+}
+
+// Then another path may be tried.
+TEST_P(SaveAfterEnd, WhatCouldNotBeWrittenIsNotReportedAsSaved) {
+    viewer = &link;
+    config.live.queue_frames = 30;
+    Make(GetParam(), {.count = 12});
+    TakeAll();
+    engine->KeepMap();
+    triangles = engine->TakeMesh().triangles.size();
+    disk.emplace();
+    disk->Start(folder.path());
+    std::size_t beginning = 0;  // operations until a scan is begun
+    {
+        const auto other = BeginScan(folder / "other.scan", Source().info(), config);
+        ASSERT_TRUE(other.ok()) << other.message();
+        beginning = disk->operations();
+    }
+    disk->Start(folder.path());
+    disk->FailAt(beginning, DiskFault::kFull, true);
+    engine->Save({Command::kSaveScan, folder / "full.scan"});
+    const std::string said = Notices();
+    EXPECT_NE(said.find("no longer saved"), std::string::npos) << said;
+    EXPECT_EQ(said.find("scan saved"), std::string::npos) << said;
+    EXPECT_FALSE(std::filesystem::exists(folder / "full.scan"));
+    disk->Mend();
+    ExpectSaved();
+}
+
+TEST_P(SaveAfterEnd, AScanThatCouldNotBeWrittenDuringTheRunCanBeSaved) {
+    viewer = &link;
+    config.live.queue_frames = 30;
+    disk.emplace();
+    disk->Start(folder.path());
+    Result<ScanPlan> plan = BeginScan(folder / "full.scan", Source().info(), config);
+    ASSERT_TRUE(plan.ok()) << plan.message();
+    disk->FailAt(disk->operations(), DiskFault::kFull, true);
+    EngineInput input = Input({.live = true});
+    input.scan = std::move(plan.value());
+    if (GetParam())
+        engine = std::make_unique<LiveEngine>(std::move(input));
+    else
+        engine = std::make_unique<LockstepEngine>(std::move(input));
+    const auto await = [&](const std::string& text) {
+        while (Messages().find(text) == std::string::npos) ASSERT_TRUE(Next());
+    };
+    await("the scan is no longer saved: ");
+    Ask(Command::kSaveScan, folder / "more.scan");
+    await("this scan could not be written and is no longer saved: " + (folder / "full.scan"));
+    Ask(Command::kStop);
+    TakeAll();
+    engine->KeepMap();
+    triangles = engine->TakeMesh().triangles.size();
+    disk->Mend();
+    ExpectSaved();
 }
 
 // However little of the map was meshed during the run.
