@@ -9,6 +9,7 @@
 #include "io/trajectory.h"
 #include "run/earlier_run.h"
 #include "run/noise_band.h"
+#include "run/run_report.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 #include "system/scan_plan.h"
@@ -152,13 +153,12 @@ Status Runner::Begin() {
     begun_ = true;
     const std::string& folder = request_.output_folder;
     if (!folder.empty()) {
-        if (!request_.resume) {
-            Result<std::string> kept = KeepEarlierRun(folder);
-            if (!kept.ok()) return kept.status();
-            if (!kept.value().empty())
-                notes_.push_back(
-                    fmt::format("{}: the last run's results are now in {}", folder, kept.value()));
-        }
+        Result<std::string> kept =
+            KeepEarlierRun(folder, request_.resume ? ScanWrittenBy(request_) : "");
+        if (!kept.ok()) return kept.status();
+        if (!kept.value().empty())
+            notes_.push_back(
+                fmt::format("{}: the last run's results are now in {}", folder, kept.value()));
         if (Status status = OpenOutput(); !status.ok()) return status;
     }
     TellOpened();
