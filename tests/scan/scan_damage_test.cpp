@@ -162,49 +162,5 @@ TEST_F(ScanDamage, ACutJournalIsAnEarlierCheckpoint) {
     EXPECT_TRUE(lengths.contains(20u) && lengths.size() >= 4);
 }
 
-// SQLite writes pages of a large checkpoint to the journal before it is complete.
-TEST_F(ScanDamage, RepairIgnoresACheckpointThatWasNotCompleted) {
-    WriteBytes(folder / "d.scan", whole);
-    auto file = ScanFile::OpenToWrite(folder / "d.scan");
-    ASSERT_TRUE(file.ok()) << file.message();
-    ASSERT_TRUE(file.value()->Begin().ok());
-    ASSERT_TRUE(file.value()->Clear(ScanTable::kBlocks).ok());
-    const Bytes data(15'000, 1);
-    for (int key = 0; key < 1400; ++key)
-        ASSERT_TRUE(file.value()->Put(ScanTable::kBlocks, key, data).ok());
-    ASSERT_GT(ReadBytes(folder / "d.scan-wal").size(), 1'000'000u);
-    WriteBytes(folder / "e.scan", ReadBytes(folder / "d.scan"));
-    WriteBytes(folder / "e.scan-wal", ReadBytes(folder / "d.scan-wal"));
-    EXPECT_EQ(ExpectSoundRepair(folder / "e.scan"), 36);
-}
-
-// When SQLite writes the journal again from its beginning, the old frames stay behind the new ones.
-TEST_F(ScanDamage, RepairIgnoresTheRemainsOfAnEarlierJournal) {
-    WriteBytes(folder / "d.scan", whole);
-    auto file = ScanFile::OpenToWrite(folder / "d.scan");
-    ASSERT_TRUE(file.ok()) << file.message();
-    const Bytes tracking(50'000, 7);  // on several pages
-    ASSERT_TRUE(file.value()->Begin().ok());
-    ASSERT_TRUE(
-        file.value()
-            ->Put(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kTracking), tracking)
-            .ok());
-    ASSERT_TRUE(file.value()->Commit(false).ok());
-    std::string journal = ReadBytes(folder / "d.scan-wal"), remains = journal.substr(32);
-    constexpr std::size_t kFrame = 24 + kScanPageBytes;
-    ASSERT_EQ(remains.size() % kFrame, 0u);
-    ASSERT_GT(remains.size(), 3 * kFrame);
-    for (std::size_t at = 0; at < remains.size(); at += kFrame) {
-        remains[at + 8] = static_cast<char>(~remains[at + 8]);  // the salt
-        std::fill_n(remains.begin() + static_cast<std::ptrdiff_t>(at + 24), kScanPageBytes, '\0');
-    }
-    WriteBytes(folder / "e.scan", ReadBytes(folder / "d.scan"));
-    WriteBytes(folder / "e.scan-wal", journal + remains);
-    EXPECT_EQ(ExpectSoundRepair(folder / "e.scan"), 36);
-    const Result<ScanContent> scan = ReadScan(folder / "repaired.scan", {});
-    ASSERT_TRUE(scan.ok()) << scan.message();
-    EXPECT_EQ(scan.value().tracking, tracking);
-}
-
 }  // namespace
 }  // namespace tessera
