@@ -98,6 +98,24 @@ TEST_F(FramesOfScan, ADamagedFrameIsLeftOutAndCounted) {
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST_F(FramesOfScan, AFrameWithoutColourIsLeftOutAndCounted) {
+    Change([](ScanFile& file) {
+        FrameRecord record;
+        const Result<Bytes> was = file.ReadOne(ScanTable::kFrames, 3);
+        ASSERT_TRUE(was.ok() && record.Decode(was.value()));
+        EncodedImages images = *record.stored.images.Read().value();
+        images.colour_jpeg.clear();
+        record.stored.images = StoredImages(std::move(images));
+        EXPECT_TRUE(file.Put(ScanTable::kFrames, 3, record.Encode().value()).ok());
+    });
+    const auto notes = ExportFrames(scan, raw);
+    ASSERT_TRUE(notes.ok()) << notes.message();
+    EXPECT_EQ(notes.value(),
+              std::vector<std::string>{"1 of 5 frames are left out (" + scan +
+                                       ": frame 3 cannot be recorded: it has no colour)"});
+    EXPECT_EQ(StampText(raw), "0.000 0.667 1.333 2.667 ");
+}
+
 // The names that "all" stood for are those of the detector, renamed once.
 TEST_F(Run, AScanLabelledWithAllClassesIsExported) {
     request.scan_file = folder / "a.scan";
