@@ -81,6 +81,7 @@ class Runner {
     MemoryWatch memory_;
     std::vector<StampedPose> truth_, estimate_;
     std::vector<std::pair<double, bool>> tracked_;  // stamps of this run's tracked frames; fused?
+    std::optional<Eigen::Isometry3d> T_map_truth_;  // from its first one that has ground truth
     std::vector<std::string> notes_;                // from opening, for the user
     LabelClasses class_names_;
     std::unique_ptr<Engine> engine_;

@@ -50,6 +50,8 @@ void Runner::TakeFrame(const FrameOutcome& outcome) {
     if (report.tracked()) {
         estimate_.push_back({report.stamp_s, report.track.T_world_camera});
         tracked_.emplace_back(report.stamp_s, report.fused);
+        if (outcome.T_world_camera_truth && !T_map_truth_)
+            T_map_truth_ = report.track.T_world_camera * outcome.T_world_camera_truth->inverse();
     }
     const double frame_ms = frame_watch_.LapMs();
     AddTimes(outcome, frame_ms);
@@ -106,9 +108,8 @@ void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
 }
 
 std::optional<Eigen::Isometry3d> Runner::TruthOf(const FrameOutcome& outcome) const {
-    if (!outcome.T_world_camera_truth || estimate_.empty() || truth_.empty()) return std::nullopt;
-    return estimate_.front().T_world_camera * truth_.front().T_world_camera.inverse() *
-           *outcome.T_world_camera_truth;
+    if (!outcome.T_world_camera_truth || !T_map_truth_) return std::nullopt;
+    return *T_map_truth_ * *outcome.T_world_camera_truth;
 }
 
 Status Runner::BeginAnew() {
@@ -118,6 +119,7 @@ Status Runner::BeginAnew() {
     truth_.clear();
     estimate_.clear();
     tracked_.clear();
+    T_map_truth_.reset();
     times_ = {};
     told_.status = TrackStatus::kGood;
     told_.degenerate = told_.colour_rejected = false;
