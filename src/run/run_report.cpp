@@ -159,7 +159,7 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
                  {"ate", nullptr}};
     if (summary.labels)
         json["labels"] = {
-            {"detector", request.labels},
+            {"detector", summary.detector},
             {"frames", summary.labels->frames},
             {"frames_per_s", summary.wall_s > 0
                                  ? static_cast<double>(summary.labels->frames) / summary.wall_s

@@ -90,7 +90,8 @@ Status Runner::Open(const std::atomic<bool>& stop) {
             OpenLabelling(request_.labels, request_.source, config_.synthetic, config_.labels);
         if (!opened.ok()) return opened.status();
         labelling = std::move(opened.value());
-        if (Status status = BeginLabels(labelling.classes); !status.ok()) return status;
+        if (Status status = BeginLabels(labelling.classes, request_.labels); !status.ok())
+            return status;
     }
     Result<ScanPlan> scan = OpenScan();
     if (!scan.ok()) return scan.status();

@@ -45,7 +45,7 @@ class Runner {
     void TakeFrame(const FrameOutcome& outcome);
     void TakeLabels(const LabelReport& report);
     // Another detector is in use, or the first.
-    Status BeginLabels(const LabelClasses& classes);
+    Status BeginLabels(const LabelClasses& classes, const std::string& detector);
     void AddTimes(const FrameOutcome& outcome, double frame_ms);
     // The source's ground truth in the map's world.
     std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const;

@@ -35,7 +35,7 @@ Status Runner::Take(const FrameOutcome& outcome) {
         case Kind::kLabels: TakeLabels(*outcome.labels); break;
         case Kind::kLabelsBegin:
             window_.ShowDetector(outcome.detector);
-            return BeginLabels(*outcome.classes);
+            return BeginLabels(*outcome.classes, outcome.detector);
         case Kind::kLabelsEnd: Warn(outcome.message), window_.EndLabels(); break;
         case Kind::kReset: return BeginAnew();
     }
@@ -69,10 +69,14 @@ void Runner::KeepGoing(const Status& written) {
         Warn(written.message() + "; the run goes on and tries again");
 }
 
-Status Runner::BeginLabels(const LabelClasses& classes) {
+Status Runner::BeginLabels(const LabelClasses& classes, const std::string& detector) {
     class_names_ = classes;
     window_.Show(class_names_);
-    if (summary_.labels) return Status::Ok();
+    summary_.detector = detector;
+    if (summary_.labels) {
+        if (output_) KeepGoing(output_->AddClasses(class_names_));
+        return Status::Ok();
+    }
     summary_.labels.emplace();
     if (const std::string warning = WarningOf(config_.labels, classes); !warning.empty())
         Warn(warning);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/stopwatch.h"
+#include "io/detections_text.h"
 #include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "run/run_fixture.h"
@@ -70,6 +71,23 @@ TEST_F(Run, ItsWindowGetsTheTruePathInTheMapsWorld) {
             << update.report.index;
     }
     EXPECT_EQ(tracked, 4);
+}
+
+TEST_F(Run, RecordsTheDetectorThatItsWindowChose) {
+    std::ofstream(folder / "cups.txt") << "1000.0 cup 0.9 10 10 40 40\n";
+    request.labels = folder / "cups.txt";
+    config.labels.classes = "cup keyboard";
+    ViewerLink link;
+    ViewerSettings settings;
+    settings.detector = "synthetic";
+    settings.detector_choice = 1;
+    link.settings.Push(std::move(settings));
+    request.viewer = &link;
+    ASSERT_TRUE(Execute().ok());
+    EXPECT_EQ(Json("run.json")["labels"]["detector"], "synthetic");
+    const auto rows = ReadDetectionRows(Out("detections.txt"));
+    ASSERT_TRUE(rows.ok()) << rows.message();
+    EXPECT_EQ(rows.value().classes, (std::set<std::string>{"cup", "keyboard"}));
 }
 
 }  // namespace
