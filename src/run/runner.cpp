@@ -202,7 +202,7 @@ std::int64_t Runner::Total() const {
 
 void Runner::Warn(const std::string& text) {
     if (observer_.on_warning) observer_.on_warning(text);
-    window_.Say(text);
+    if (request_.viewer != nullptr) request_.viewer->messages.Push(std::string(text));
 }
 
 }  // namespace tessera

@@ -1,6 +1,4 @@
 // What a run sends to its window.
-#include "run/run_window.h"
-
 #include <atomic>
 #include <map>
 #include <thread>
