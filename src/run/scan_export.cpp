@@ -126,15 +126,6 @@ Result<TriangleMesh> MeshOfScan(ScanContent& scan) {
     return mapping.TakeMesh();
 }
 
-Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path,
-                                    std::vector<Eigen::Isometry3d>* path) {
-    Result<ScanContent> scan = ReadScanToShow(scan_path, {});
-    if (!scan.ok()) return scan.status();
-    if (path != nullptr)
-        for (const StampedPose& pose : scan.value().Path()) path->push_back(pose.T_world_camera);
-    return MeshOfScan(scan.value());
-}
-
 Result<std::vector<std::string>> ExportFrames(const std::string& scan_path,
                                               const std::string& folder) {
     Result<std::unique_ptr<FrameSource>> source = ScanSource::Open(scan_path);

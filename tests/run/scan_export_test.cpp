@@ -11,6 +11,7 @@
 #include "export/posed_scan.h"
 #include "io/folder_source.h"
 #include "run/run_fixture.h"
+#include "run/scanned.h"
 
 namespace tessera {
 namespace {
@@ -126,10 +127,11 @@ TEST_F(Run, AScanLabelledWithAllClassesIsExported) {
     const auto run = Execute();
     ASSERT_TRUE(run.ok()) << run.message();
     EXPECT_GT(run.value().labels->frames, 0);
-    const auto mesh = MeshOfScanFile(request.scan_file, nullptr);
-    ASSERT_TRUE(mesh.ok()) << mesh.message();
-    EXPECT_GT(mesh.value().vertices.size(), 100u);
-    EXPECT_EQ(mesh.value().labels.size(), mesh.value().vertices.size());
+    const auto scanned = ReadScanFile(request.scan_file);
+    ASSERT_TRUE(scanned.ok()) << scanned.message();
+    const TriangleMesh& mesh = scanned.value().mesh;
+    EXPECT_GT(mesh.vertices.size(), 100u);
+    EXPECT_EQ(mesh.labels.size(), mesh.vertices.size());
 }
 
 }  // namespace
