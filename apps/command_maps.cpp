@@ -9,6 +9,7 @@
 #include "export/level.h"
 #include "export/robot_maps.h"
 #include "run/scan_export.h"
+#include "run/scanned.h"
 #include "scan/shown_scan.h"
 
 namespace tessera {
@@ -25,12 +26,9 @@ struct MapsArguments {
 
 // From the mesh, which takes a map of its own.
 Result<Level> LevelOf(const std::string& path) {
-    Result<ScanContent> scan = ReadScanToShow(path, {});
-    if (!scan.ok()) return scan.status();
-    const std::vector<StampedPose> poses = scan.value().Path();
-    const Result<TriangleMesh> mesh = MeshOfScan(scan.value());
-    if (!mesh.ok()) return mesh.status();
-    Result<Level> level = FindLevel(mesh.value(), poses);
+    const Result<Scanned> scanned = ReadScanFile(path);
+    if (!scanned.ok()) return scanned.status();
+    Result<Level> level = FindLevel(scanned.value().mesh, scanned.value().path);
     if (!level.ok()) return Status::Error(path + ": " + level.message());
     fmt::print("level: the first camera was tilted by {:.2f} degrees\n",
                level.value().tilt_rad * 180 / std::numbers::pi);

@@ -5,10 +5,9 @@
 
 #include "command.h"
 #include "io/image_io.h"
-#include "io/mesh_io.h"
 #include "io/trajectory.h"
 #include "render/mesh_picture.h"
-#include "run/scan_export.h"
+#include "run/scanned.h"
 #include "semantics/objects_file.h"
 
 namespace tessera {
@@ -72,13 +71,13 @@ MeshView ViewOfPose(const RenderArguments& a, const Eigen::Isometry3d& T_world_c
 }
 
 Status Render(const RenderArguments& a) {
-    Result<TriangleMesh> mesh =
-        a.mesh.ends_with(".scan") ? MeshOfScanFile(a.mesh, nullptr) : ReadPly(a.mesh);
-    if (!mesh.ok()) return mesh.status();
-    if (mesh.value().triangles.empty()) return Status::Error(a.mesh + ": has no triangles");
+    Result<Scanned> scanned = ReadScanOrMesh(a.mesh);
+    if (!scanned.ok()) return scanned.status();
+    TriangleMesh& mesh = scanned.value().mesh;
+    if (mesh.triangles.empty()) return Status::Error(a.mesh + ": has no triangles");
     RenderStyle style;
     style.shading = ToStyle(a.shading);
-    if (Status status = ApplyLabels(a, mesh.value(), style); !status.ok()) return status;
+    if (Status status = ApplyLabels(a, mesh, style); !status.ok()) return status;
     if (!a.trajectory.empty()) {
         const Result<Trajectory> trajectory = ReadTrajectory(a.trajectory);
         if (!trajectory.ok()) return trajectory.status();
@@ -93,10 +92,9 @@ Status Render(const RenderArguments& a) {
         view = ViewOfPose(a, style.path[static_cast<std::size_t>(a.pose)]);
         style.path.clear();  // the path would start at the eye point
     } else {
-        view = ChooseView(mesh.value(), style.path, a.width, a.height);
+        view = ChooseView(mesh, style.path, a.width, a.height);
     }
-    return WriteColourImage(a.out,
-                            RenderMesh(mesh.value(), view.camera, view.T_world_camera, style));
+    return WriteColourImage(a.out, RenderMesh(mesh, view.camera, view.T_world_camera, style));
 }
 
 }  // namespace

@@ -8,13 +8,12 @@
 #include "finished_model.h"
 #include "io/file.h"
 #include "io/image_io.h"
-#include "io/mesh_io.h"
 #include "io/openni_devices.h"
 #include "io/trajectory.h"
 #include "run/finish_run.h"
 #include "run/open_source.h"
 #include "run/run_source.h"
-#include "run/scan_export.h"
+#include "run/scanned.h"
 #include "semantics/objects_file.h"
 #include "start_window.h"
 #include "viz/measuring.h"
@@ -74,23 +73,22 @@ Result<Files> FindFiles(const ViewRequest& a) {
 
 Result<ViewedModel> Read(const Files& files) {
     ViewedModel model;
-    const bool scan = files.mesh.ends_with(".scan");
-    Result<TriangleMesh> mesh =
-        scan ? MeshOfScanFile(files.mesh, files.trajectory.empty() ? &model.path : nullptr)
-             : ReadPly(files.mesh);
-    if (!mesh.ok()) return mesh.status();
-    if (mesh.value().triangles.empty()) return Status::Error(files.mesh + ": has no triangles");
-    model.mesh = std::move(mesh.value());
+    Result<Scanned> scanned = ReadScanOrMesh(files.mesh);
+    if (!scanned.ok()) return scanned.status();
+    model.mesh = std::move(scanned.value().mesh);
+    if (model.mesh.triangles.empty()) return Status::Error(files.mesh + ": has no triangles");
     if (!files.objects.empty()) {
         Result<std::vector<MapObject>> objects = ReadObjects(files.objects);
         if (!objects.ok()) return objects.status();
         model.objects = std::move(objects.value());
     }
-    if (files.trajectory.empty()) return model;
-    const Result<Trajectory> trajectory = ReadTrajectory(files.trajectory);
-    if (!trajectory.ok()) return trajectory.status();
-    for (const StampedPose& pose : trajectory.value().poses)
-        model.path.push_back(pose.T_world_camera);
+    std::vector<StampedPose> path = std::move(scanned.value().path);
+    if (!files.trajectory.empty()) {
+        Result<Trajectory> trajectory = ReadTrajectory(files.trajectory);
+        if (!trajectory.ok()) return trajectory.status();
+        path = std::move(trajectory.value().poses);
+    }
+    for (const StampedPose& pose : path) model.path.push_back(pose.T_world_camera);
     return model;
 }
 

@@ -45,7 +45,7 @@ std::string ParseComment(const std::string& line, DetectionRows& rows) {
         rows.frames.push_back(stamp_s);
     } else if (const auto names = rest_after("classes")) {
         std::istringstream words(*names);
-        rows.classes.emplace();
+        if (!rows.classes) rows.classes.emplace();
         for (std::string name; words >> name;) rows.classes->insert(name);
     } else if (const auto pairs = rest_after("aliases")) {
         Result<ClassAliases> aliases = ParseAliases(*pairs);

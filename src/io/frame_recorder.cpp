@@ -52,12 +52,12 @@ Status FrameRecorder::Start() {
 
 Status FrameRecorder::Add(const Frame& frame) {
     if (!status_.ok()) return status_;
+    if (std::string why = WhyNot(frame); !why.empty()) return Status::Error(std::move(why));
     const std::string colour_name =
         fmt::format("rgb/{:.6f}.{}", frame.colour_stamp_s,
                     config_.colour == RecordConfig::Colour::kJpeg ? "jpg" : "png");
     const std::string depth_name = fmt::format("depth/{:.6f}.png", frame.stamp_s);
-    Status status = Check(frame);
-    if (status.ok()) status = WriteImages(frame, colour_name, depth_name);
+    Status status = WriteImages(frame, colour_name, depth_name);
     if (status.ok()) status = List(frame, colour_name, depth_name);
     if (!status.ok())
         return status_ = Status::Error(
@@ -68,11 +68,10 @@ Status FrameRecorder::Add(const Frame& frame) {
     return status;
 }
 
-Status FrameRecorder::Check(const Frame& frame) const {
+std::string FrameRecorder::WhyNot(const Frame& frame) const {
     const PinholeCamera& camera = source_.camera;
     const auto bad = [&](const std::string& why) {
-        return Status::Error(
-            fmt::format("{}: frame {} cannot be recorded: {}", source_.name, frame.index, why));
+        return fmt::format("{}: frame {} cannot be recorded: {}", source_.name, frame.index, why);
     };
     if (frame.colour.empty()) return bad("it has no colour");
     if (frame.depth_m.width() != camera.width || frame.depth_m.height() != camera.height ||
@@ -87,7 +86,7 @@ Status FrameRecorder::Check(const Frame& frame) const {
     if (!increases(last_stamp_s_, frame.stamp_s) ||
         !increases(last_colour_stamp_s_, frame.colour_stamp_s))
         return bad("its time stamp is not later than the previous frame's");
-    return Status::Ok();
+    return {};
 }
 
 Status FrameRecorder::WriteImages(const Frame& frame, const std::string& colour_name,

@@ -28,7 +28,7 @@ struct RecordConfig {
     void Describe(ConfigParameters& parameters);
 };
 
-// Owner thread only. After an error, every further Add returns it.
+// Owner thread only. After an error of writing, every further Add returns it.
 class FrameRecorder {
   public:
     // Creates the folder. Refuses a source without colour, because folders are read with both
@@ -37,11 +37,14 @@ class FrameRecorder {
                                                          const SourceInfo& source,
                                                          const RecordConfig& config = {});
 
+    // Why the frame cannot be recorded, while others can: it has no colour, another size, or a
+    // stamp that is not a microsecond later than that of the last one recorded. Empty if it can.
+    std::string WhyNot(const Frame& frame) const;
+
     // Writes the frame before it returns. Images are written to a temporary file, renamed, and only
     // then listed. So at any time, even if the disk is full or the process is killed, the folder
     // holds a readable recording of the earlier frames. Errors name the file, what is wrong, and
-    // how many frames are safe. A frame is refused if it has no colour, another size, or a stamp
-    // that does not increase by a microsecond.
+    // how many frames are safe. A frame for which WhyNot has a reason is refused with it.
     Status Add(const Frame& frame);
 
     // Flushes everything to disk. Call it once, at the end.
@@ -53,7 +56,6 @@ class FrameRecorder {
     FrameRecorder(const std::string& folder, const SourceInfo& source, const RecordConfig& config)
         : folder_(folder), source_(source), config_(config) {}
     Status Start();
-    Status Check(const Frame& frame) const;
     Status WriteImages(const Frame& frame, const std::string& colour_name,
                        const std::string& depth_name);
     Status List(const Frame& frame, const std::string& colour_name, const std::string& depth_name);
@@ -68,7 +70,7 @@ class FrameRecorder {
     std::vector<std::uint8_t> file_;  // an encoded image
     std::int64_t frames_ = 0;
     double last_stamp_s_ = 0, last_colour_stamp_s_ = 0;
-    Status status_;  // the first error
+    Status status_;  // the first error of writing
 };
 
 }  // namespace tessera

@@ -91,6 +91,7 @@ RunRecord ToRecord(const Json& json) {
     Take(json, "version", record.version);
     Take(json, "exit", record.exit);
     Take(json, "command_line", record.command_line);
+    Take(json, "scan", record.scan);
     TakeSource(Child(json, "source"), record);
     TakeCorrections(json, record);
     TakeAte(Child(json, "ate"), record);

@@ -22,6 +22,7 @@ struct RunRecord {
 
     std::string version, exit;
     std::string source_name, source_kind;
+    std::string scan;                     // the scan file that it wrote, an absolute path
     std::optional<PinholeCamera> camera;  // as used; empty if it is not plausible
     double vignetting = 0;                // as corrected; 0: not
     double colour_delay_s = 0;            // the source's setting and what was found beyond it

@@ -68,8 +68,10 @@ bool HoldsCameraRun(const std::string& folder) {
     return ReadTrajectory(folder + "/trajectory.txt").ok();  // not without a pose, for one
 }
 
-Result<std::string> KeepEarlierRun(const std::string& folder) {
+Result<std::string> KeepEarlierRun(const std::string& folder, const std::string& resumed_scan) {
     if (!HoldsCameraRun(folder)) return std::string();
+    const Result<RunRecord> run = ReadRunRecord(folder + "/run.json");
+    if (run.ok() && !resumed_scan.empty() && run.value().scan == resumed_scan) return std::string();
     std::error_code error;
     std::string kept;
     for (int number = 1; kept.empty(); ++number) {

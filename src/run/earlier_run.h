@@ -16,9 +16,10 @@ Status CheckOutputFolder(const std::string& source, const std::string& folder);
 bool HoldsCameraRun(const std::string& folder);
 
 // If `folder` holds such a run, moves its results to folder/earlier_1, or the next number that is
-// free, and returns that folder. Else returns "" and leaves all as it is. Errors name the file that
-// cannot be moved.
-Result<std::string> KeepEarlierRun(const std::string& folder);
+// free, and returns that folder. Else returns "" and leaves all as it is, also if the run wrote
+// `resumed_scan` (as in run.json; empty: none), because the next one's results cover all of it.
+// Errors name the file that cannot be moved.
+Result<std::string> KeepEarlierRun(const std::string& folder, const std::string& resumed_scan);
 
 // Removes the results of an earlier run, finished or killed, but for run.json: until that is
 // written anew, it marks the folder as a run's.

@@ -11,11 +11,6 @@
 namespace tessera {
 namespace {
 
-struct PlanInput {
-    Scanned scanned;
-    std::vector<MapObject> objects;
-};
-
 // A camera that is held upright in a world whose `up` is up: a mesh has no path to tell.
 Result<StampedPose> UprightCamera(const std::string& up) {
     const bool down = up.starts_with('-');
@@ -31,34 +26,12 @@ Result<StampedPose> UprightCamera(const std::string& up) {
     return pose;
 }
 
-Result<PlanInput> FromMesh(const std::string& path, const std::string& up) {
-    PlanInput input;
+Result<Scanned> FromMesh(const std::string& path, const std::string& up) {
     const Result<StampedPose> pose = UprightCamera(up.empty() ? "z" : up);
     if (!pose.ok()) return pose.status();
-    input.scanned.path.push_back(pose.value());
     Result<TriangleMesh> mesh = ReadPly(path);
     if (!mesh.ok()) return mesh.status();
-    input.scanned.mesh = std::move(mesh.value());
-    return input;
-}
-
-Result<PlanInput> FromFolder(const std::string& folder) {
-    Result<Scanned> scanned = ReadRunFolder(folder);
-    if (!scanned.ok()) return scanned.status();
-    PlanInput input{std::move(scanned.value()), {}};
-    const std::string file = folder + "/objects.json";
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) return input;
-    Result<std::vector<MapObject>> objects = ReadObjects(file);
-    if (!objects.ok()) return objects.status();
-    input.objects = std::move(objects.value());
-    return input;
-}
-
-Result<PlanInput> FromScanFile(const std::string& path) {
-    Result<Scanned> scanned = ReadScanFile(path);
-    if (!scanned.ok()) return scanned.status();
-    return PlanInput{std::move(scanned.value()), {}};
+    return Scanned{std::move(mesh.value()), {pose.value()}};
 }
 
 }  // namespace
@@ -67,19 +40,27 @@ Result<FloorPlan> PlanOfRun(const PlanRequest& request) {
     std::error_code ignored;
     const std::string& path = request.input;
     const bool is_mesh = std::filesystem::path(path).extension() == ".ply";
-    Result<PlanInput> input = is_mesh ? FromMesh(path, request.up)
-                              : std::filesystem::is_directory(path, ignored) ? FromFolder(path)
-                                                                             : FromScanFile(path);
-    if (!input.ok()) return input.status();
+    const bool is_run = !is_mesh && std::filesystem::is_directory(path, ignored);
+    Result<Scanned> scanned = is_mesh  ? FromMesh(path, request.up)
+                              : is_run ? ReadRunFolder(path)
+                                       : ReadScanFile(path);
+    if (!scanned.ok()) return scanned.status();
+    std::vector<MapObject> objects;
+    if (const std::string file = path + "/objects.json";
+        is_run && std::filesystem::exists(file, ignored)) {
+        Result<std::vector<MapObject>> read = ReadObjects(file);
+        if (!read.ok()) return read.status();
+        objects = std::move(read.value());
+    }
     if (!is_mesh && !request.up.empty()) {
         const Result<StampedPose> pose = UprightCamera(request.up);
         if (!pose.ok()) return pose.status();
-        input.value().scanned.path = {pose.value()};
+        scanned.value().path = {pose.value()};
     }
     Result<FloorPlan> plan =
-        MakeFloorPlan(input.value().scanned.mesh, input.value().scanned.path, request.options);
+        MakeFloorPlan(scanned.value().mesh, scanned.value().path, request.options);
     if (!plan.ok()) return Status::Error(path + ": " + plan.message() + " (which way is up: --up)");
-    AddObjects(input.value().objects, plan.value());
+    AddObjects(objects, plan.value());
     return plan;
 }
 

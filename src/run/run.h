@@ -73,6 +73,7 @@ struct RunSummary {
     std::vector<std::pair<std::string, StageStatistics>> stages;
     MapStatistics map;
     std::optional<LabelSummary> labels;  // with labels only
+    std::string detector;                // with labels: the last one in use, as for --labels
     // With calibration.refine, if there was enough data for an estimate.
     std::optional<CalibrationReport> calibration;
     CameraFindings found;

@@ -46,13 +46,18 @@ std::string FrameLine(const FrameReport& r, double decode_ms, double frame_ms) {
 
 // What was looked for, so that `tessera eval` can tell a class that was never found from one that
 // nobody asked for.
+std::string ClassesLine(const LabelClasses& classes) {
+    std::string line = "# classes";
+    for (int id = 1; id <= classes.count(); ++id)
+        if (classes.CanBeFound(id)) line += " " + classes.name(id);
+    return line + "\n";
+}
+
 std::string DetectionsHeader(const LabelClasses& classes) {
     std::string header =
         "# stamp class probability xmin ymin xmax ymax; '# frame STAMP' before each frame looked "
-        "at\n# classes";
-    for (int id = 1; id <= classes.count(); ++id)
-        if (classes.CanBeFound(id)) header += " " + classes.name(id);
-    header += "\n# aliases";
+        "at\n" +
+        ClassesLine(classes) + "# aliases";
     for (const auto& [from, to] : classes.aliases()) header += " " + from + "=" + to;
     return header + "\n";
 }
@@ -81,6 +86,10 @@ Result<std::unique_ptr<RunOutput>> RunOutput::Open(const RunRequest& request,
 
 Status RunOutput::BeginDetections(const LabelClasses& classes) {
     return OpenGrowing("detections.txt", DetectionsHeader(classes), detections_);
+}
+
+Status RunOutput::AddClasses(const LabelClasses& classes) {
+    return detections_.Append(ClassesLine(classes));
 }
 
 Status RunOutput::OpenGrowing(const std::string& name, const std::string& header, Lines& lines) {

@@ -31,6 +31,8 @@ class RunOutput {
 
     // Begins detections.txt, in a run that was opened without labels.
     Status BeginDetections(const LabelClasses& classes);
+    // Adds to detections.txt what another detector can find.
+    Status AddClasses(const LabelClasses& classes);
     // Adds the frame's detections to detections.txt, after a line that marks the frame as
     // processed.
     Status AddDetections(const LabelReport& report, const LabelClasses& classes);

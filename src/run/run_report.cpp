@@ -1,5 +1,6 @@
 #include "run/run_report.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 namespace tessera {
@@ -107,6 +108,12 @@ Json ColourDelayJson(const ColourDelay& delay) {
 
 }  // namespace
 
+std::string ScanWrittenBy(const RunRequest& request) {
+    if (request.scan_file.empty() || request.localise_only) return "";
+    std::error_code ignored;
+    return std::filesystem::absolute(request.scan_file, ignored).lexically_normal().string();
+}
+
 std::string TimingsJson(const RunSummary& summary) {
     Json stages = Json::object();
     for (const auto& [stage, s] : summary.stages)
@@ -138,6 +145,7 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
                    {"frames", request.selection.count},
                    {"stride", request.selection.stride}}},
                  {"poses", request.poses_file},
+                 {"scan", ScanWrittenBy(request)},
                  {"counts",
                   {{"frames", n.frames},
                    {"tracked", n.tracked},
@@ -151,7 +159,7 @@ std::string RunJson(const RunRequest& request, RunConfig config, const RunSummar
                  {"ate", nullptr}};
     if (summary.labels)
         json["labels"] = {
-            {"detector", request.labels},
+            {"detector", summary.detector},
             {"frames", summary.labels->frames},
             {"frames_per_s", summary.wall_s > 0
                                  ? static_cast<double>(summary.labels->frames) / summary.wall_s

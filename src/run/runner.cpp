@@ -9,6 +9,7 @@
 #include "io/trajectory.h"
 #include "run/earlier_run.h"
 #include "run/noise_band.h"
+#include "run/run_report.h"
 #include "system/live_engine.h"
 #include "system/lockstep_engine.h"
 #include "system/scan_plan.h"
@@ -89,7 +90,8 @@ Status Runner::Open(const std::atomic<bool>& stop) {
             OpenLabelling(request_.labels, request_.source, config_.synthetic, config_.labels);
         if (!opened.ok()) return opened.status();
         labelling = std::move(opened.value());
-        if (Status status = BeginLabels(labelling.classes); !status.ok()) return status;
+        if (Status status = BeginLabels(labelling.classes, request_.labels); !status.ok())
+            return status;
     }
     Result<ScanPlan> scan = OpenScan();
     if (!scan.ok()) return scan.status();
@@ -152,13 +154,12 @@ Status Runner::Begin() {
     begun_ = true;
     const std::string& folder = request_.output_folder;
     if (!folder.empty()) {
-        if (!request_.resume) {
-            Result<std::string> kept = KeepEarlierRun(folder);
-            if (!kept.ok()) return kept.status();
-            if (!kept.value().empty())
-                notes_.push_back(
-                    fmt::format("{}: the last run's results are now in {}", folder, kept.value()));
-        }
+        Result<std::string> kept =
+            KeepEarlierRun(folder, request_.resume ? ScanWrittenBy(request_) : "");
+        if (!kept.ok()) return kept.status();
+        if (!kept.value().empty())
+            notes_.push_back(
+                fmt::format("{}: the last run's results are now in {}", folder, kept.value()));
         if (Status status = OpenOutput(); !status.ok()) return status;
     }
     TellOpened();
@@ -201,7 +202,7 @@ std::int64_t Runner::Total() const {
 
 void Runner::Warn(const std::string& text) {
     if (observer_.on_warning) observer_.on_warning(text);
-    window_.Say(text);
+    if (request_.viewer != nullptr) request_.viewer->messages.Push(std::string(text));
 }
 
 }  // namespace tessera

@@ -9,7 +9,6 @@
 #include "run/memory_watch.h"
 #include "run/run.h"
 #include "run/run_output.h"
-#include "run/run_window.h"
 #include "run/source_camera.h"
 #include "system/engine.h"
 
@@ -23,7 +22,6 @@ class Runner {
           config_(config),
           observer_(observer),
           selection_(request.selection),
-          window_(request.viewer),
           memory_(config) {}
 
     Result<RunSummary> Run(const std::atomic<bool>& stop);
@@ -45,10 +43,12 @@ class Runner {
     void TakeFrame(const FrameOutcome& outcome);
     void TakeLabels(const LabelReport& report);
     // Another detector is in use, or the first.
-    Status BeginLabels(const LabelClasses& classes);
+    Status BeginLabels(const LabelClasses& classes, const std::string& detector);
+    void EndLabels(const std::string& why);
+    // To the window. The map's owner sends meshes and images (viewer_feed.h).
+    void Show(const FrameOutcome& outcome);
+    void ShowLabels(const LabelReport& report);
     void AddTimes(const FrameOutcome& outcome, double frame_ms);
-    // The source's ground truth in the map's world.
-    std::optional<Eigen::Isometry3d> TruthOf(const FrameOutcome& outcome) const;
     // After a reset, the output files also cover only the new world.
     Status BeginAnew();
     Status OpenOutput();
@@ -77,10 +77,10 @@ class Runner {
     // Frames still to read: fewer than requested if a scan is resumed.
     FrameSelection selection_;
     std::int64_t frames_before_ = 0;  // frames in the resumed scan
-    RunWindow window_;
     MemoryWatch memory_;
     std::vector<StampedPose> truth_, estimate_;
     std::vector<std::pair<double, bool>> tracked_;  // stamps of this run's tracked frames; fused?
+    std::optional<Eigen::Isometry3d> T_map_truth_;  // from its first one that has ground truth
     std::vector<std::string> notes_;                // from opening, for the user
     LabelClasses class_names_;
     std::unique_ptr<Engine> engine_;

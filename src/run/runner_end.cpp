@@ -75,7 +75,8 @@ Status Runner::WriteMesh() {
     if (sound && !engine_->status().ok()) return engine_->status();
     while (const auto notice = engine_->TakeNotice()) Warn(*notice);
     if (summary_.labels) summary_.labels->objects = engine_->objects();
-    if (summary_.labels) window_.ShowObjects(engine_->objects());
+    if (summary_.labels && request_.viewer != nullptr)
+        request_.viewer->objects.Push(std::vector<MapObject>(engine_->objects()));
     times_.Add("mesh", watch.LapMs());
     return output_->WriteMesh(std::move(mesh));
 }

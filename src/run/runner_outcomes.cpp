@@ -34,9 +34,10 @@ Status Runner::Take(const FrameOutcome& outcome) {
         case Kind::kMessage: Warn(outcome.message); break;
         case Kind::kLabels: TakeLabels(*outcome.labels); break;
         case Kind::kLabelsBegin:
-            window_.ShowDetector(outcome.detector);
-            return BeginLabels(*outcome.classes);
-        case Kind::kLabelsEnd: Warn(outcome.message), window_.EndLabels(); break;
+            if (request_.viewer != nullptr)
+                request_.viewer->detectors.Push(std::string(outcome.detector));
+            return BeginLabels(*outcome.classes, outcome.detector);
+        case Kind::kLabelsEnd: EndLabels(outcome.message); break;
         case Kind::kReset: return BeginAnew();
     }
     return Status::Ok();
@@ -50,10 +51,12 @@ void Runner::TakeFrame(const FrameOutcome& outcome) {
     if (report.tracked()) {
         estimate_.push_back({report.stamp_s, report.track.T_world_camera});
         tracked_.emplace_back(report.stamp_s, report.fused);
+        if (outcome.T_world_camera_truth && !T_map_truth_)
+            T_map_truth_ = report.track.T_world_camera * outcome.T_world_camera_truth->inverse();
     }
     const double frame_ms = frame_watch_.LapMs();
     AddTimes(outcome, frame_ms);
-    window_.Show(outcome, summary_.counts, TruthOf(outcome));
+    Show(outcome);
     if (outcome.labels) TakeLabels(*outcome.labels);
     if (output_) KeepGoing(output_->AddFrame(report, outcome.decode_ms, frame_ms));
     if (const auto reason = memory_.Check(outcome.map, report.fusion.no_memory)) {
@@ -67,10 +70,14 @@ void Runner::KeepGoing(const Status& written) {
         Warn(written.message() + "; the run goes on and tries again");
 }
 
-Status Runner::BeginLabels(const LabelClasses& classes) {
+Status Runner::BeginLabels(const LabelClasses& classes, const std::string& detector) {
     class_names_ = classes;
-    window_.Show(class_names_);
-    if (summary_.labels) return Status::Ok();
+    if (request_.viewer != nullptr) request_.viewer->classes.Push(LabelClasses(class_names_));
+    summary_.detector = detector;
+    if (summary_.labels) {
+        if (output_) KeepGoing(output_->AddClasses(class_names_));
+        return Status::Ok();
+    }
     summary_.labels.emplace();
     if (const std::string warning = WarningOf(config_.labels, classes); !warning.empty())
         Warn(warning);
@@ -84,8 +91,42 @@ void Runner::TakeLabels(const LabelReport& report) {
     summary_.labels->detections += static_cast<std::int64_t>(report.detections.size());
     summary_.labels->flips += report.votes.flips;
     summary_.labels->settled += report.votes.settled;
-    window_.Show(report, class_names_);
+    ShowLabels(report);
     if (output_) KeepGoing(output_->AddDetections(report, class_names_));
+}
+
+void Runner::EndLabels(const std::string& why) {
+    Warn(why);
+    if (request_.viewer == nullptr) return;
+    LabelUpdate update;
+    update.stopped = true;
+    request_.viewer->labels.Push(std::move(update));
+}
+
+void Runner::Show(const FrameOutcome& outcome) {
+    if (request_.viewer == nullptr) return;
+    FrameUpdate update;
+    update.report = outcome.report;
+    if (outcome.T_world_camera_truth && T_map_truth_)
+        update.T_world_camera_truth = *T_map_truth_ * *outcome.T_world_camera_truth;
+    update.decode_ms = outcome.decode_ms;
+    update.mesh_ms = outcome.mesh_ms;
+    update.latency_ms = outcome.latency_ms;
+    update.counts = summary_.counts;
+    update.queues = outcome.queues;
+    update.map = outcome.map;
+    request_.viewer->frames.Push(std::move(update));
+}
+
+void Runner::ShowLabels(const LabelReport& report) {
+    if (request_.viewer == nullptr) return;
+    LabelUpdate update;
+    update.stamp_s = report.stamp_s;
+    update.detect_ms = report.detect_ms;
+    for (const Detection& d : report.detections)
+        update.detections.push_back(
+            {d.box, class_names_.name(d.class_id), d.probability, class_names_.colour(d.class_id)});
+    request_.viewer->labels.Push(std::move(update));
 }
 
 void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
@@ -105,12 +146,6 @@ void Runner::AddTimes(const FrameOutcome& outcome, double frame_ms) {
     if (request_.viewer != nullptr) times_.Add("mesh_update", outcome.mesh_ms);
 }
 
-std::optional<Eigen::Isometry3d> Runner::TruthOf(const FrameOutcome& outcome) const {
-    if (!outcome.T_world_camera_truth || estimate_.empty() || truth_.empty()) return std::nullopt;
-    return estimate_.front().T_world_camera * truth_.front().T_world_camera.inverse() *
-           *outcome.T_world_camera_truth;
-}
-
 Status Runner::BeginAnew() {
     summary_.counts = {};
     if (summary_.labels) summary_.labels.emplace();
@@ -118,6 +153,7 @@ Status Runner::BeginAnew() {
     truth_.clear();
     estimate_.clear();
     tracked_.clear();
+    T_map_truth_.reset();
     times_ = {};
     told_.status = TrackStatus::kGood;
     told_.degenerate = told_.colour_rejected = false;

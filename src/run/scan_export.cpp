@@ -41,11 +41,14 @@ class SessionFolders {
     SessionFolders(std::string scan_path, std::string first, SourceInfo source)
         : scan_path_(std::move(scan_path)), first_(std::move(first)), source_(std::move(source)) {}
 
-    Status Add(const Frame& frame) {
+    // Returns why the frame is left out; empty if it is not.
+    Result<std::string> Add(const Frame& frame) {
         if (recorder_ == nullptr || frame.stamp_s <= last_stamp_s_)
             if (Status status = Begin(frame); !status.ok()) return status;
         last_stamp_s_ = frame.stamp_s;
-        return recorder_->Add(frame);
+        if (std::string why = recorder_->WhyNot(frame); !why.empty()) return why;
+        if (Status status = recorder_->Add(frame); !status.ok()) return status;
+        return std::string();
     }
     // Returns where the later sessions are.
     Result<std::vector<std::string>> Finish() {
@@ -123,40 +126,36 @@ Result<TriangleMesh> MeshOfScan(ScanContent& scan) {
     return mapping.TakeMesh();
 }
 
-Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path,
-                                    std::vector<Eigen::Isometry3d>* path) {
-    Result<ScanContent> scan = ReadScanToShow(scan_path, {});
-    if (!scan.ok()) return scan.status();
-    if (path != nullptr)
-        for (const StampedPose& pose : scan.value().Path()) path->push_back(pose.T_world_camera);
-    return MeshOfScan(scan.value());
-}
-
 Result<std::vector<std::string>> ExportFrames(const std::string& scan_path,
                                               const std::string& folder) {
     Result<std::unique_ptr<FrameSource>> source = ScanSource::Open(scan_path);
     if (!source.ok()) return source.status();
     SessionFolders folders(scan_path, folder, source.value()->info());
-    std::int64_t damaged = 0;
-    std::string first_damaged;
+    std::int64_t left_out = 0;
+    std::string first_reason;
+    const auto leave_out = [&](const std::string& why) {
+        if (left_out++ == 0) first_reason = why;
+    };
     Frame frame;
     ReadResult read;
     while ((read = source.value()->Read(frame)).status != ReadStatus::kEnd) {
         if (read.status == ReadStatus::kOk) {
-            if (Status status = folders.Add(frame); !status.ok()) return status;
+            const Result<std::string> why_not = folders.Add(frame);
+            if (!why_not.ok()) return why_not.status();
+            if (!why_not.value().empty()) leave_out(why_not.value());
         } else if (read.status == ReadStatus::kSkip) {
-            if (damaged++ == 0) first_damaged = read.message;
+            leave_out(read.message);
         } else {
             return Status::Error(read.message);
         }
     }
     Result<std::vector<std::string>> notes = folders.Finish();
     if (!notes.ok()) return notes;
-    if (damaged == source.value()->info().frame_count)
-        return Status::Error(first_damaged + "; no frame can be exported");
-    if (damaged > 0)
-        notes.value().push_back(fmt::format("{} of {} frames are left out ({})", damaged,
-                                            source.value()->info().frame_count, first_damaged));
+    if (left_out == source.value()->info().frame_count)
+        return Status::Error(first_reason + "; no frame can be exported");
+    if (left_out > 0)
+        notes.value().push_back(fmt::format("{} of {} frames are left out ({})", left_out,
+                                            source.value()->info().frame_count, first_reason));
     return notes;
 }
 

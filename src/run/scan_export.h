@@ -19,14 +19,10 @@ RunConfig ConfigOf(const ScanMeta& meta);
 // as far as this version knows them. Takes the map.
 Result<TriangleMesh> MeshOfScan(ScanContent& scan);
 
-// The same from a file. `path`, if not null, receives the poses.
-Result<TriangleMesh> MeshOfScanFile(const std::string& scan_path,
-                                    std::vector<Eigen::Isometry3d>* path);
-
 // Writes the stored raw frames to a new folder (TUM layout). Where the clock starts again, as in
 // another session, the frames go on in a folder of their own: FOLDER_2 and so on. Damaged frames
-// are left out. Returns what the user should know of both; usually nothing. An error if there are
-// no frames; it says how to keep them.
+// and those without colour are left out. Returns what the user should know of both; usually
+// nothing. An error if there are no frames; it says how to keep them.
 Result<std::vector<std::string>> ExportFrames(const std::string& scan_path,
                                               const std::string& folder);
 

@@ -30,4 +30,11 @@ Result<Scanned> ReadScanFile(const std::string& path) {
     return Scanned{std::move(mesh.value()), scan.value().Path()};
 }
 
+Result<Scanned> ReadScanOrMesh(const std::string& path) {
+    if (path.ends_with(".scan")) return ReadScanFile(path);
+    Result<TriangleMesh> mesh = ReadPly(path);
+    if (!mesh.ok()) return mesh.status();
+    return Scanned{std::move(mesh.value()), {}};
+}
+
 }  // namespace tessera

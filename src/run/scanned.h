@@ -19,5 +19,7 @@ struct Scanned {
 Result<Scanned> ReadRunFolder(const std::string& folder);
 // The same of a scan file; the mesh is made anew.
 Result<Scanned> ReadScanFile(const std::string& path);
+// FILE.scan, or a mesh file, which has no path.
+Result<Scanned> ReadScanOrMesh(const std::string& path);
 
 }  // namespace tessera

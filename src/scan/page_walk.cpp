@@ -99,18 +99,32 @@ Result<std::unique_ptr<PageWalk>> PageWalk::Open(const std::string& path) {
     for (std::size_t i = 0; i < walk->main_pages_; ++i)
         walk->images_.push_back({0, i * kPage, static_cast<std::uint32_t>(i + 1)});
     auto journal = std::make_unique<File>();
-    if (!journal->Map(path + "-wal").ok() || journal->size < kJournalHeader) return walk;
-    for (std::size_t at = kJournalHeader; at + kFrameHeader + kPage <= journal->size;
-         at += kFrameHeader + kPage) {
-        const std::uint32_t number = BigEndian(journal->data + at, 4);
-        if (number == 0 || number > (std::uint32_t{1} << 26)) continue;
-        walk->images_.push_back({1, at + kFrameHeader, number});
-        if (walk->newest_in_journal_.size() <= number)
-            walk->newest_in_journal_.resize(number + 1, 0);
-        walk->newest_in_journal_[number] = walk->images_.size();
-    }
-    walk->files_.push_back(std::move(journal));
+    if (journal->Map(path + "-wal").ok()) walk->AddJournal(std::move(journal));
     return walk;
+}
+
+// SQLite writes the journal again from its beginning, with a new salt: frames with another are
+// remains. Those behind the last commit are of a checkpoint that was never completed.
+void PageWalk::AddJournal(std::unique_ptr<File> journal) {
+    constexpr std::size_t kFrame = kFrameHeader + kPage, kSalt = 8;
+    const std::uint8_t* const data = journal->data;
+    const auto is_current = [&](std::size_t at) {  // the first frame's, if the header is damaged
+        return std::memcmp(data + at + 8, data + 16, kSalt) == 0 ||
+               std::memcmp(data + at + 8, data + kJournalHeader + 8, kSalt) == 0;
+    };
+    std::size_t end = 0;
+    for (std::size_t at = kJournalHeader; at + kFrame <= journal->size; at += kFrame) {
+        const std::uint32_t pages_after_commit = BigEndian(data + at + 4, 4);  // 0: no commit
+        if (is_current(at) && pages_after_commit != 0) end = at + kFrame;
+    }
+    for (std::size_t at = kJournalHeader; at < end; at += kFrame) {
+        const std::uint32_t number = BigEndian(data + at, 4);
+        if (number == 0 || number > (std::uint32_t{1} << 26)) continue;
+        images_.push_back({1, at + kFrameHeader, number});
+        if (newest_in_journal_.size() <= number) newest_in_journal_.resize(number + 1, 0);
+        newest_in_journal_[number] = images_.size();
+    }
+    files_.push_back(std::move(journal));
 }
 
 std::span<const std::uint8_t> PageWalk::Page(const PageImage& image) const {

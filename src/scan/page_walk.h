@@ -1,6 +1,6 @@
 // Finds the rows of a scan file page by page, without SQLite. It finds every row whose checksum is
-// right, whatever state the header, tables or trees are in. Also reads the journal (-wal) next to
-// the file.
+// right, whatever state the header, tables or trees are in. Also reads what is committed in the
+// journal (-wal) next to the file.
 #pragma once
 
 #include <functional>
@@ -42,6 +42,7 @@ class PageWalk {
     };
 
     PageWalk();
+    void AddJournal(std::unique_ptr<File> journal);
     bool ReadCell(std::span<const std::uint8_t> page, std::size_t offset, bool journal,
                   ScanRow& row);
     bool GatherOverflow(std::uint32_t page, bool journal, std::size_t size);

@@ -28,6 +28,10 @@ class Repair {
             return Status::Error(path_ +
                                  ": nothing can be recovered: no block and no pose is intact");
         JudgeLoops();
+        ScanRow labels;
+        labelled_ =
+            Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kLabels), labels) &&
+            !labels.data.empty();
         Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(out_, meta_.Encode());
         if (!file.ok()) return file.status();
         file_ = std::move(file.value());
@@ -81,7 +85,8 @@ class Repair {
         meta_.loops = whole;
     }
 
-    // Renumbers the blocks without gaps, in their original order.
+    // Renumbers the blocks without gaps, in their original order. Leaves out their labels if the
+    // objects that these name are lost.
     Status CopyBlocks() {
         std::vector<std::pair<BlockId, std::int64_t>> order;
         ScanRow row;
@@ -90,14 +95,24 @@ class Repair {
                 order.emplace_back(*BlockCodec::NumberOf(row.data), key);
         std::ranges::sort(order);
         BlockId next = 1;
+        BlockCodec codec;
+        BlockCopies block;
+        bool unlabelled = false;
         for (const auto& [id, key] : order) {
             Load(ScanTable::kBlocks, key, row);
             Bytes data(row.data.begin(), row.data.end());
+            block.Clear();
+            if (!labelled_ && codec.Decode(data, CoordOfKey(key), block) && !block.labels.empty()) {
+                unlabelled = true;
+                block.labels.clear();
+                data = codec.Encode(block, 0);
+            }
             std::memcpy(data.data(), &next, sizeof(next));
             ++next;
             if (Status status = file_->Put(ScanTable::kBlocks, key, data); !status.ok())
                 return status;
         }
+        if (unlabelled) report_.lost.push_back("the objects' labels");
         report_.blocks = next - 1;
         return Status::Ok();
     }
@@ -120,6 +135,7 @@ class Repair {
             }
             if (record.keyframe >= static_cast<int>(poses_.size())) continue;
             new_key_[key] = report_.path;
+            began_again_ = began_again_ || (last_ && record.index <= last_->index);
             last_ = record;
             if (Status status = file_->Put(ScanTable::kPath, report_.path++, record.Encode());
                 !status.ok())
@@ -181,6 +197,12 @@ class Repair {
             }
         }
         progress.frames = report_.path;
+        progress.labels = labelled_;
+        // Then the last index is of another source than the first session's.
+        if (began_again_ && !load(ScanStateKey::kSource)) {
+            report_.lost.push_back("the name of the last session's source");
+            progress.last_index = -1;
+        }
         const auto put = [&](ScanStateKey key, std::span<const std::uint8_t> data) {
             return file_->Put(ScanTable::kState, static_cast<std::int64_t>(key), data);
         };
@@ -206,6 +228,8 @@ class Repair {
     std::map<std::int64_t, KeyframePoses> poses_;
     std::map<std::int64_t, std::int64_t> new_key_;  // for the path
     std::optional<PathRecord> last_;
+    bool labelled_ = false;     // the state of the labels is intact
+    bool began_again_ = false;  // the path has another session's frames
 };
 
 }  // namespace

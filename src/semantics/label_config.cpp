@@ -160,8 +160,7 @@ Result<LabelClasses> LabelClasses::Make(const LabelConfig& config,
     if (made.count() > kMost)
         return Status::Error(
             fmt::format("labels.classes: {} classes, at most {}", made.count(), kMost));
-    for (const std::string& name : known)
-        if (made.IdOf(name) > 0) made.known_ids_.insert(made.IdOf(name));
+    made.SetKnown(known);
     if (!known.empty() && made.known_ids_.empty())
         return Status::Error(
             fmt::format("labels.classes: the detector knows none of them (it knows {}{}); set "
@@ -169,6 +168,12 @@ Result<LabelClasses> LabelClasses::Make(const LabelConfig& config,
                         "labels.aliases, or labels.classes=all",
                         known.front(), known.size() > 1 ? ", ..." : ""));
     return made;
+}
+
+void LabelClasses::SetKnown(const std::vector<std::string>& known) {
+    known_ids_.clear();
+    for (const std::string& name : known)
+        if (IdOf(name) > 0) known_ids_.insert(IdOf(name));
 }
 
 std::string LabelClasses::OurName(const std::string& detector_name) const {

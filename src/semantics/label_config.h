@@ -71,6 +71,9 @@ class LabelClasses {
     static Result<LabelClasses> Make(const LabelConfig& config,
                                      const std::vector<std::string>& known);
 
+    // The class names of another detector, which has taken over; for CanBeFound.
+    void SetKnown(const std::vector<std::string>& known);
+
     // Blanks and "_" are equivalent; aliases are applied. Returns 0 if the class is not wanted.
     int IdOf(const std::string& detector_name) const;
     // True for classes of labels.dynamic, by the same name rules. They are kept out of the map and

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <vector>
 
 #include "io/file.h"
@@ -27,6 +28,24 @@ ColourImage Grey(const Image<Mobility>& mobility) {
         return Rgb8{level, level, level};
     });
     return grey;
+}
+
+// A sequence has folders for labels and instances from the beginning, unlike a recording and a run.
+Status CheckSequenceFolder(const std::string& folder) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    if (fs::is_directory(folder + "/labels", ignored) &&
+        fs::is_directory(folder + "/instances", ignored))
+        return Status::Ok();
+    for (const char* name :
+         {"rgb", "depth", "labels", "instances", "moving", "rgb.txt", "depth.txt", "camera.yaml",
+          "groundtruth.txt", "classes.txt", "objects.json", "detections.txt", "reference.ply"})
+        if (fs::exists(folder + "/" + name, ignored))
+            return Status::Error(
+                fmt::format("{}/{}: would be replaced, but is not of a synthetic sequence; move it "
+                            "away, or give another folder",
+                            folder, name));
+    return Status::Ok();
 }
 
 // Depth noise stays below this share of the depth; steps at discontinuities exceed it.
@@ -123,6 +142,7 @@ SequenceSummary Writer::Summary(std::int64_t reference_triangles) const {
 
 Result<SequenceSummary> WriteSequence(SyntheticSource& source, const std::string& folder,
                                       const WriteProgress& progress) {
+    if (Status status = CheckSequenceFolder(folder); !status.ok()) return status;
     Writer writer(source, folder);
     if (Status status = writer.PrepareFolders(); !status.ok()) return status;
     source.Seek(0);

@@ -34,8 +34,9 @@ struct SequenceSummary {
 // writing; the lists and the reference mesh are then written for the frames done.
 using WriteProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
-// Writes all frames of the source, from the first one. Errors name the file and the cause (not
-// writable, disk full); image files already written remain. `progress` may be empty.
+// Writes all frames of the source, from the first one. Replaces an earlier sequence in the folder,
+// but refuses a folder whose files of these names are not of one. Errors name the file and the
+// cause (not writable, disk full); image files already written remain. `progress` may be empty.
 Result<SequenceSummary> WriteSequence(SyntheticSource& source, const std::string& folder,
                                       const WriteProgress& progress);
 

@@ -97,7 +97,10 @@ DetectorChange LabellingStage::Change(const std::string& name, const OpenDetecto
     if (Status status = Check(*labelling.value().detector); !status.ok())
         return refused(name + ": " + status.message());
     detector_ = std::move(labelling.value().detector);
-    if (classes_.count() == 0) classes_ = std::move(labelling.value().classes);
+    if (classes_.count() == 0)
+        classes_ = std::move(labelling.value().classes);
+    else
+        classes_.SetKnown(detector_->class_names());
     broken_ = false;
     without_colour_ = 0;
     if (in_background_) detector_->WorkInBackground();

@@ -20,7 +20,7 @@ Status RecorderThread::Start(const std::string& folder) {
     if (!recorder.ok()) return recorder.status();
     recorder_ = std::move(recorder.value());
     folder_ = folder;
-    dropped_ = 0;
+    dropped_ = left_out_ = 0;
     failed_.store(false);
     notices_.Tell("recording to " + folder);
     worker_.emplace(kCapacity, [this](std::unique_ptr<Frame>& frame) { Write(std::move(frame)); });
@@ -44,7 +44,9 @@ void RecorderThread::Add(const Frame& frame) {
 
 void RecorderThread::Write(std::unique_ptr<Frame> frame) {
     if (!failed_.load()) {
-        if (Status status = recorder_->Add(*frame); !status.ok()) {
+        if (const std::string why = recorder_->WhyNot(*frame); !why.empty()) {
+            if (left_out_++ == 0) notices_.Tell("recording goes on: " + why);
+        } else if (Status status = recorder_->Add(*frame); !status.ok()) {
             failed_.store(true);
             notices_.Tell("recording ended: " + status.message());
         }
@@ -61,10 +63,11 @@ void RecorderThread::Stop() {
         notices_.Tell(
             !status.ok()
                 ? "recording: " + status.message()
-                : fmt::format("recorded {} frames in {}{}", recorder_->frames(), folder_,
-                              dropped_ > 0
-                                  ? fmt::format("; {} dropped, the disk is too slow", dropped_)
-                                  : std::string()));
+                : fmt::format(
+                      "recorded {} frames in {}{}{}", recorder_->frames(), folder_,
+                      dropped_ > 0 ? fmt::format("; {} dropped, the disk is too slow", dropped_)
+                                   : std::string(),
+                      left_out_ > 0 ? fmt::format("; {} left out", left_out_) : std::string()));
     recorder_.reset();
 }
 

@@ -16,8 +16,8 @@ namespace tessera {
 class RecorderThread {
   public:
     // If the queue is full: waits if `wait_when_full`; else drops the new frame and counts it.
-    // `notices` is told where the recording goes, why it ended and how many frames were saved. It
-    // outlives the object.
+    // `notices` is told where the recording goes, why a frame was left out (of the first one), why
+    // it ended and how many frames were saved. It outlives the object.
     RecorderThread(const SourceInfo& source, const RecordConfig& config, bool wait_when_full,
                    Notices& notices);
     ~RecorderThread();  // calls Stop
@@ -47,6 +47,7 @@ class RecorderThread {
     std::string folder_;
     std::unique_ptr<FrameRecorder> recorder_;  // the worker's, while there is one
     std::int64_t dropped_ = 0;
+    std::int64_t left_out_ = 0;        // could not be recorded; the worker's, as recorder_
     std::atomic<bool> failed_{false};  // writing has failed; nothing more is written
     std::optional<Worker<std::unique_ptr<Frame>>> worker_;
 };

@@ -44,8 +44,6 @@ struct FrameUpdate {
     RunCounts counts;                                         // up to and including this frame
     std::vector<std::pair<const char*, std::size_t>> queues;  // queue name and length
     MapStatistics map;
-    // Frames dropped so far by a live source because newer ones arrived.
-    std::int64_t dropped = 0;
 };
 
 // Images of one frame. Large, so only the newest is kept.

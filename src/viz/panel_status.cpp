@@ -55,7 +55,8 @@ void DrawStatusPanel(ViewerState& state, const SceneView& scene) {
     cell("Frame", fmt::format("{}", frame.report.index));
     cell("Rate", fmt::format("{:.1f} fps", state.system.fps()));
     cell("Latency", fmt::format("{:.0f} ms", frame.latency_ms));
-    cell("Dropped", Count(frame.dropped), frame.dropped > 0 ? palette::kWarning : palette::kText);
+    cell("Dropped", Count(frame.counts.dropped),
+         frame.counts.dropped > 0 ? palette::kWarning : palette::kText);
     cell("Inliers", fmt::format("{:.0f} %", 100 * track.inlier_fraction));
     cell("Distance", fmt::format("{:.1f} mm", 1000 * track.distance_rms_m));
     cell("Poor", Count(frame.counts.poor),

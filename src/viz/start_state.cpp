@@ -31,27 +31,39 @@ std::vector<std::string> ThatExist(std::vector<std::string> paths) {
 StartState::StartState(StartServices given)
     : services(std::move(given)),
       recent_(ThatExist(ReadRecentPaths(services.recent_file))),
-      lookup_(services) {
+      examiner_(1,
+                [this](std::string& path) {
+                    findings_.Push({path, services.examine(path)});
+                }),
+      lister_(1, [this](char&) { listings_.Push(services.list_cameras()); }) {
     choices.output_folder = NewOutputFolder();
     Put(choices.output_folder, typed_output);
     EnterFolder(folder_);
 }
 
 bool StartState::Update() {
-    if (!lookup_.Update()) return false;
-    if (cameras()) {
-        const auto& devices = cameras()->devices;
+    bool any = false;
+    while (findings_.TryPop(examined_)) any = true;
+    OpenniListing listing;
+    while (listings_.TryPop(listing)) {
+        cameras_ = std::move(listing);
+        any = true;
+    }
+    if (any && cameras_) {
+        const auto& devices = cameras_->devices;
         if (std::ranges::find(devices, choices.camera, &OpenniDevice::uri) == devices.end())
             choices.camera = devices.empty() ? "" : devices.front().uri;
     }
-    return true;
+    return any;
 }
 
 void StartState::Choose(const std::string& path) {
     choices.path = path;
     if (path != typed_path.data()) Put(path, typed_path);
     const std::string source = SourceOf(choices);
-    if (!source.empty()) lookup_.Examine(source);
+    // Not if it is known or being found out already. What is wrong may have been put right.
+    if (!source.empty() && (source != asked_ || examined_.finding.failed))
+        examiner_.PushNewest(std::string(asked_ = source));
     Changed();
 }
 
@@ -60,9 +72,15 @@ void StartState::EnterFolder(const std::string& folder) {
     list_ = ListFolder(folder);
 }
 
+void StartState::RefreshCameras() {
+    cameras_asked_ = true;
+    cameras_.reset();
+    lister_.PushNewest(0);
+}
+
 void StartState::ShowPage(StartPage page) {
     choices.page = page;
-    if (page == StartPage::kCamera && !lookup_.cameras_asked()) RefreshCameras();
+    if (page == StartPage::kCamera && !cameras_asked_) RefreshCameras();
     Changed();
 }
 
@@ -95,8 +113,8 @@ PathFinding StartState::finding() const {
     }
     if (choices.path.empty())
         found.text = "Choose a recording to scan, or a finished scan to look at.";
-    else if (const PathFinding* known = lookup_.FindingOf(SourceOf(choices)))
-        return *known;
+    else if (SourceOf(choices) == examined_.path)
+        return examined_.finding;
     else
         found.text = "Looking ...";
     return found;

@@ -1,5 +1,5 @@
 // What the start screen's panels share: the choices, what is known about them, and the actions of
-// the controls.
+// the controls. Threads of its own find out what a path is and which cameras there are.
 #pragma once
 
 #include <array>
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/worker.h"
 #include "viz/controls.h"
 #include "viz/folder_list.h"
-#include "viz/start_lookup.h"
 #include "viz/start_screen.h"
 
 namespace tessera {
@@ -33,8 +33,8 @@ class StartState {
     const FolderList& list() const { return list_; }
     const std::vector<std::string>& recent() const { return recent_; }  // that still exist
 
-    void RefreshCameras() { lookup_.ListCameras(); }
-    const std::optional<OpenniListing>& cameras() const { return lookup_.cameras(); }
+    void RefreshCameras();
+    const std::optional<OpenniListing>& cameras() const { return cameras_; }  // empty: being listed
 
     void ShowPage(StartPage page);
     // Call after any other change of the choices.
@@ -61,11 +61,24 @@ class StartState {
     std::vector<std::string> decision;
 
   private:
+    struct Examined {
+        std::string path;
+        PathFinding finding;
+    };
+
     std::string folder_ = ".";
     FolderList list_;
     std::vector<std::string> recent_;
     EarlierRun earlier_run_ = EarlierRun::kNone;
-    StartLookup lookup_;
+    Examined examined_;
+    std::string asked_;  // the path that is examined, or was last
+    std::optional<OpenniListing> cameras_;
+    bool cameras_asked_ = false;
+    Wake taken_;
+    NewestQueue<Examined> findings_{1, taken_};
+    NewestQueue<OpenniListing> listings_{1, taken_};
+    Worker<std::string, NewestQueue> examiner_;
+    Worker<char, NewestQueue> lister_;
 };
 
 // The panels (panel_start*.cpp). Call inside an ImGui frame.

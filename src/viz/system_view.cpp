@@ -105,7 +105,7 @@ void SystemView::AddToHistory() {
     add(h.inlier_percent, report.first ? 100 : 100 * report.track.inlier_fraction);
     add(h.rms_mm, 1000 * report.track.distance_rms_m);
     add(h.map_mb, static_cast<double>(frame_.map.bytes) / (1 << 20));
-    add(h.dropped, static_cast<double>(frame_.dropped));
+    add(h.dropped, static_cast<double>(frame_.counts.dropped));
     for (const auto& [name, waiting] : frame_.queues)
         add(h.queued[name], static_cast<double>(waiting));
 }

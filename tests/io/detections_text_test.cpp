@@ -30,6 +30,11 @@ TEST(DetectionsText, CommentsWithAMeaning) {
     EXPECT_EQ(rows.rows[0].box, (DetectionBox{1, 2, 3, 4}));
 }
 
+TEST(DetectionsText, ClassesOfSeveralDetectorsCountTogether) {
+    EXPECT_EQ(Parse("# classes cup tree\n# classes book cup\n").value().classes,
+              (std::set<std::string>{"book", "cup", "tree"}));
+}
+
 TEST(DetectionsText, NoAliasesIsNotTheSameAsNotSaid) {
     EXPECT_EQ(Parse("# aliases\n# classes \n").value().aliases, ClassAliases{});
     EXPECT_EQ(Parse("# classes\n").value().classes, std::set<std::string>{});

@@ -166,6 +166,14 @@ class Report(unittest.TestCase):
         self.assertEqual(dom.count('class="chart curves marked"') + dom.count('class="chart strip marked"'),
                          dom.count('class="chart '))
 
+    def test_the_path_shows_where_frames_are_lost(self):
+        """Of the lines between the poses of frames 1, 2 and 4."""
+        dom = self.dom(self.with_script("""
+            const frames = [[0, 0, 2, 9], [1, 0.1, 0, 9], [2, 0.2, 1, 9], [3, 0.3, 2, 9], [4, 0.4, 0, 9]];
+            page.dataset.path = statesOfPath({poses: [{t: 0.1}, {t: 0.2}, {t: 0.4}], frames});
+            """))
+        self.assertIn('data-path="1,2"', re.search("<html[^>]*>", dom).group(0))
+
     def test_the_model_is_drawn(self):
         picture = self.picture(f"file://{self.page}")
         view = picture[self.canvas(picture)]

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "run/run_fixture.h"
+#include "scan/database.h"
 
 namespace tessera {
 namespace {
@@ -45,6 +46,30 @@ TEST_F(EarlierRun, OfACameraMovesAsideWithAllItsFiles) {
     SayItWasACamera();
     ASSERT_TRUE(Execute().ok());
     EXPECT_TRUE(fs::exists(Out("earlier_2/mesh.ply")));
+    EXPECT_TRUE(ReadAll(Out("earlier_1/mesh.ply")) == mesh);
+}
+
+// The resumed scan covers the results of its own earlier run, and no others.
+TEST_F(EarlierRun, OfAnotherRoomIsKeptFromAResumedScan) {
+    if (!ScanAvailable()) GTEST_SKIP() << kScanUnavailable;
+    request.scan_file = folder / "kitchen.scan";
+    request.selection.count = 2;
+    ASSERT_TRUE(Execute().ok());
+    SayItWasACamera();
+    request.resume = true;
+    request.selection.count = 4;
+    ASSERT_TRUE(Execute().ok());
+    EXPECT_FALSE(fs::exists(Out("earlier_1")));
+
+    const RunRequest kitchen = request;
+    request.resume = false;
+    request.scan_file.clear();
+    ASSERT_TRUE(Execute().ok());
+    SayItWasACamera();
+    const std::string mesh = ReadAll(Out("mesh.ply"));
+    request = kitchen;
+    request.selection.count = 6;
+    ASSERT_TRUE(Execute().ok());
     EXPECT_TRUE(ReadAll(Out("earlier_1/mesh.ply")) == mesh);
 }
 

@@ -11,6 +11,7 @@
 #include "export/posed_scan.h"
 #include "io/folder_source.h"
 #include "run/run_fixture.h"
+#include "run/scanned.h"
 
 namespace tessera {
 namespace {
@@ -98,6 +99,24 @@ TEST_F(FramesOfScan, ADamagedFrameIsLeftOutAndCounted) {
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST_F(FramesOfScan, AFrameWithoutColourIsLeftOutAndCounted) {
+    Change([](ScanFile& file) {
+        FrameRecord record;
+        const Result<Bytes> was = file.ReadOne(ScanTable::kFrames, 3);
+        ASSERT_TRUE(was.ok() && record.Decode(was.value()));
+        EncodedImages images = *record.stored.images.Read().value();
+        images.colour_jpeg.clear();
+        record.stored.images = StoredImages(std::move(images));
+        EXPECT_TRUE(file.Put(ScanTable::kFrames, 3, record.Encode().value()).ok());
+    });
+    const auto notes = ExportFrames(scan, raw);
+    ASSERT_TRUE(notes.ok()) << notes.message();
+    EXPECT_EQ(notes.value(),
+              std::vector<std::string>{"1 of 5 frames are left out (" + scan +
+                                       ": frame 3 cannot be recorded: it has no colour)"});
+    EXPECT_EQ(StampText(raw), "0.000 0.667 1.333 2.667 ");
+}
+
 // The names that "all" stood for are those of the detector, renamed once.
 TEST_F(Run, AScanLabelledWithAllClassesIsExported) {
     request.scan_file = folder / "a.scan";
@@ -108,10 +127,11 @@ TEST_F(Run, AScanLabelledWithAllClassesIsExported) {
     const auto run = Execute();
     ASSERT_TRUE(run.ok()) << run.message();
     EXPECT_GT(run.value().labels->frames, 0);
-    const auto mesh = MeshOfScanFile(request.scan_file, nullptr);
-    ASSERT_TRUE(mesh.ok()) << mesh.message();
-    EXPECT_GT(mesh.value().vertices.size(), 100u);
-    EXPECT_EQ(mesh.value().labels.size(), mesh.value().vertices.size());
+    const auto scanned = ReadScanFile(request.scan_file);
+    ASSERT_TRUE(scanned.ok()) << scanned.message();
+    const TriangleMesh& mesh = scanned.value().mesh;
+    EXPECT_GT(mesh.vertices.size(), 100u);
+    EXPECT_EQ(mesh.labels.size(), mesh.vertices.size());
 }
 
 }  // namespace

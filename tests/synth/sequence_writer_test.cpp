@@ -151,6 +151,23 @@ TEST(SequenceWriter, AFolderThatCannotBeMadeIsAnError) {
     EXPECT_NE(summary.message().find("/proc/nowhere"), std::string::npos);
 }
 
+TEST(SequenceWriter, ReplacesASequenceButNoRecording) {
+    const std::string folder = ProcessFolder() + "/a_recording", list = folder + "/rgb.txt";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    std::ofstream(list) << "mine";
+    SyntheticSource source("two cups", TwoCups(), SmallSequence());
+    const WriteProgress one = [](std::int64_t, std::int64_t) { return false; };
+    const auto refused = WriteSequence(source, folder, one);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.message().find(list + ": would be replaced"), 0u) << refused.message();
+    EXPECT_EQ(std::filesystem::file_size(list), 4u);
+    EXPECT_FALSE(std::filesystem::exists(folder + "/rgb"));
+    std::filesystem::remove(list);
+    EXPECT_TRUE(WriteSequence(source, folder, one).ok());
+    EXPECT_TRUE(WriteSequence(source, folder, one).ok());
+}
+
 // In the lists, a blank ends a word and # begins a comment.
 TEST(SeenObjects, NamesOfClassesAreOneWordInTheLists) {
     AnalyticScene scene;

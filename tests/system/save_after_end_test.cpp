@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "io/mesh_io.h"
-#include "run/scan_export.h"
+#include "run/scanned.h"
 #include "scan/faulty_disk.h"
 #include "system/engine_fixture.h"
 #include "system/run_control.h"
@@ -62,11 +62,10 @@ TEST_P(SaveAfterEnd, MeshAndScanAreThoseOfTheRun) {
         ASSERT_TRUE(saved.ok()) << saved.message();
         EXPECT_EQ(saved.value().triangles.size(), mesh.triangles.size()) << name;
     }
-    std::vector<Eigen::Isometry3d> path;
-    const auto stored = MeshOfScanFile(folder / "late.scan", &path);
+    const auto stored = ReadScanFile(folder / "late.scan");
     ASSERT_TRUE(stored.ok()) << stored.message();
-    EXPECT_EQ(stored.value().triangles.size(), mesh.triangles.size());
-    EXPECT_EQ(path.size(), Reports().size());
+    EXPECT_EQ(stored.value().mesh.triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(stored.value().path.size(), Reports().size());
 }
 
 // Then another path may be tried.

@@ -98,12 +98,7 @@ class Viewer {
     const path = [], cameras = [], before = [], truth = [], boxes = [];
     const states = [colourOf('--fused'), colourOf('--tracked'), colourOf('--lost')];
     const {poses} = model;
-    let frame = 0;
-    for (let i = 1; i < poses.length; ++i) {
-      while (frame + 1 < model.frames.length && model.frames[frame][1] < poses[i].t - 1e-3) ++frame;
-      const colour = model.frames.length ? states[model.frames[frame][2]] : states[0];
-      path.push(...poses[i - 1].p, ...poses[i].p, ...colour);
-    }
+    statesOfPath(model).forEach((state, i) => path.push(...poses[i].p, ...poses[i + 1].p, ...states[state]));
     this.frustumSize = Math.min(0.3, Math.max(0.02, 0.06 * model.radius));
     // Some cameras, so far apart that they do not hide each other.
     let length = 0, next = 0;

@@ -41,6 +41,17 @@ function readModel() {
   return model;
 }
 
+// Of each line of the path, from a pose to the next one: the worst state of the frames after the
+// first pose, up to the second. A lost frame has no pose.
+function statesOfPath({poses, frames}) {
+  let frame = 0;
+  return poses.map(({t}) => {
+    let state = -1;
+    while (frame + 1 < frames.length && frames[frame][1] < t - 1e-3) state = Math.max(state, frames[++frame][2]);
+    return state < 0 && frames.length ? frames[frame][2] : Math.max(0, state);
+  }).slice(1);
+}
+
 // The middle and size of what there is to see: 96 % of the vertices per axis, so that single
 // distant ones do not count, or the path.
 function setExtent(model) {
