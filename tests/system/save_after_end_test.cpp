@@ -29,11 +29,11 @@ class SaveAfterEnd : public EngineTest, public testing::WithParamInterface<bool>
         Notices();
         engine->Save({Command::kSaveScan, folder / "late.scan"});
         EXPECT_EQ(Notices(), "scan saved: " + (folder / "late.scan") + "\n");
-        std::vector<Eigen::Isometry3d> path;
-        const auto stored = MeshOfScanFile(folder / "late.scan", &path);
+        const auto stored = ReadScanFile(folder / "late.scan");
         ASSERT_TRUE(stored.ok()) << stored.message();
-        EXPECT_EQ(stored.value().triangles.size(), triangles);
-        EXPECT_EQ(std::ssize(path), std::ranges::count_if(Reports(), &FrameReport::tracked));
+        EXPECT_EQ(stored.value().mesh.triangles.size(), triangles);
+        EXPECT_EQ(std::ssize(stored.value().path),
+                  std::ranges::count_if(Reports(), &FrameReport::tracked));
     }
     ViewerLink link;
     TempFolder folder;
