@@ -223,8 +223,7 @@ TriangleMesh LockstepEngine::TakeMesh() {
 }
 
 void LockstepEngine::Save(const ViewerCommand& command) {
-    mapping_.SaveAfterEnd(command,
-                          [this] { return loops_ ? loops_->TakeAll() : LoopChanges(); });
+    mapping_.SaveAfterEnd(command, [this] { return loops_ ? loops_->TakeAll() : LoopChanges(); });
 }
 
 }  // namespace tessera

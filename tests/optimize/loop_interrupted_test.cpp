@@ -57,10 +57,6 @@ TEST(LoopCloser, FramesThatAreMissingWhileTheMapIsMadeAgainAreNoJump) {
         EXPECT_LT((edge.T_from_to.translation() - tracked.translation()).norm(), 1e-6);
     }
     EXPECT_TRUE(linked);
-    const std::vector<StampedPose> path = walker.closer.Path();
-    const Eigen::Isometry3d went =
-        path[before].T_world_camera.inverse() * path[before + 1].T_world_camera;
-    EXPECT_LT((went.translation() - true_step.translation()).norm(), 0.03);
 }
 
 // A lost camera that sees the place where the walk began. Returns the keyframe there.

@@ -146,12 +146,9 @@ TEST_F(LiveMappingTest, WhilePausedTheWindowGetsTheRestOfTheMesh) {
     const std::size_t wanted = 3 * link.meshes.capacity();
     while (updates < wanted && std::chrono::steady_clock::now() < end) {
         MeshUpdate update;
-        if (!link.meshes.TryPop(update)) {
-            std::this_thread::yield();
-            continue;
-        }
-        ++updates;
+        if (link.meshes.TryPop(update)) ++updates;
         link.system.Notify();
+        std::this_thread::yield();
     }
     EXPECT_EQ(updates, wanted);
     mapping.Finish();
