@@ -17,13 +17,15 @@ std::string ValueText(float value, const char* unit) {
                         : fmt::format("{:.0f}", value);
 }
 
+float LastOf(const Series& series) { return series.empty() ? 0 : series.back(); }
+
 struct PlotFrame {
     ImVec2 from, to;
     float end = 1;
 
     ImVec2 At(const Series& series, std::size_t i) const {
         const std::size_t age = series.size() - 1 - i;
-        const float step = (to.x - from.x) / static_cast<float>(series.capacity() - 1);
+        const float step = (to.x - from.x) / static_cast<float>(kSeriesLength - 1);
         const float part = std::clamp(series[i] / end, 0.0f, 1.0f);
         return {to.x - step * static_cast<float>(age), to.y - part * (to.y - from.y)};
     }
@@ -46,7 +48,7 @@ void DrawCurve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, boo
 // Draws names and last values along the top, as far as they fit.
 void DrawCurveNames(ImDrawList& list, std::span<const Curve> curves, ImVec2 at, float right) {
     for (const Curve& curve : curves) {
-        const std::string text = fmt::format("{} {:.0f}", curve.name, curve.series->last());
+        const std::string text = fmt::format("{} {:.0f}", curve.name, LastOf(*curve.series));
         const float width = ImGui::CalcTextSize(text.c_str()).x;
         if (at.x + width + Scaled(10) > right) return;
         const float y = at.y + 0.5f * ImGui::GetTextLineHeight();
@@ -62,7 +64,7 @@ void DrawTip(std::span<const Curve> curves, const PlotFrame& frame, const char* 
     ImGui::BeginTooltip();
     for (const Curve& curve : curves) {
         const Series& series = *curve.series;
-        const float steps = from_right * static_cast<float>(series.capacity() - 1);
+        const float steps = from_right * static_cast<float>(kSeriesLength - 1);
         const auto age = static_cast<std::size_t>(std::max(steps + 0.5f, 0.0f));
         if (age >= series.size()) continue;
         const std::string value = ValueText(series[series.size() - 1 - age], unit);
@@ -85,7 +87,8 @@ void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves
     PlotFrame frame{{at.x, at.y + line + Scaled(6)}, {right, at.y + size.y}, axis_end};
     if (axis_end <= 0) {
         float most = 0;
-        for (const Curve& curve : curves) most = std::max(most, curve.series->max());
+        for (const Curve& curve : curves)
+            for (const float value : *curve.series) most = std::max(most, value);
         frame.end = AxisEnd(most);
     }
     list.AddText(at, palette::kDim, title);
@@ -94,7 +97,7 @@ void DrawPlot(const char* title, const char* unit, std::span<const Curve> curves
         DrawCurveNames(list, curves, {at.x + title_width + Scaled(14), at.y}, right);
     } else if (!curves.empty()) {
         const std::string value =
-            fmt::format("{} {}", ValueText(curves[0].series->last(), unit), unit);
+            fmt::format("{} {}", ValueText(LastOf(*curves[0].series), unit), unit);
         const float from = right - ImGui::CalcTextSize(value.c_str()).x;
         if (from > at.x + title_width + Scaled(6))  // else only the tooltip shows it
             list.AddText({from, at.y}, palette::kText, value.c_str());

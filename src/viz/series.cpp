@@ -1,24 +1,12 @@
 #include "viz/series.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tessera {
 
-void Series::Add(float value) {
-    values_[next_] = value;
-    next_ = (next_ + 1) % values_.size();
-    size_ = std::min(size_ + 1, values_.size());
-}
-
-float Series::operator[](std::size_t i) const {
-    return values_[(next_ + values_.size() - size_ + i) % values_.size()];
-}
-
-float Series::max() const {
-    float most = 0;
-    for (std::size_t i = 0; i < size_; ++i) most = std::max(most, (*this)[i]);
-    return most;
+void AddValue(float value, Series& series) {
+    series.push_back(value);
+    if (series.size() > kSeriesLength) series.pop_front();
 }
 
 float AxisEnd(float value) {

@@ -93,7 +93,9 @@ void SystemView::Add(FrameUpdate&& update, double now_s) {
 
 void SystemView::AddToHistory() {
     const FrameReport& report = frame_.report;
-    const auto add = [](Series& series, double value) { series.Add(static_cast<float>(value)); };
+    const auto add = [](Series& series, double value) {
+        AddValue(static_cast<float>(value), series);
+    };
     History& h = history_;
     add(h.decode_ms, frame_.decode_ms);
     add(h.prepare_ms, report.prepare_ms);

@@ -6,21 +6,13 @@ namespace tessera {
 namespace {
 
 TEST(Series, KeepsTheNewestInOrder) {
-    Series series(3);
-    EXPECT_EQ(series.size(), 0u);
-    EXPECT_EQ(series.last(), 0);
-    for (int i = 1; i <= 5; ++i) series.Add(static_cast<float>(i));
-    ASSERT_EQ(series.size(), 3u);
+    Series series;
+    const int count = static_cast<int>(kSeriesLength) + 2;
+    for (int i = 1; i <= count; ++i) AddValue(static_cast<float>(i), series);
+    ASSERT_EQ(series.size(), kSeriesLength);
     EXPECT_EQ(series[0], 3);
     EXPECT_EQ(series[1], 4);
-    EXPECT_EQ(series.last(), 5);
-    EXPECT_EQ(series.max(), 5);
-    series.Add(-1);
-    series.Add(-2);
-    series.Add(-3);
-    EXPECT_EQ(series.max(), 0);
-    series.Clear();
-    EXPECT_EQ(series.size(), 0u);
+    EXPECT_EQ(series.back(), static_cast<float>(count));
 }
 
 TEST(Series, AxesEndAtRoundNumbers) {
