@@ -53,24 +53,21 @@ std::vector<std::pair<int, int>> MatchDescriptors(std::span<const Descriptor> ol
     return pairs;
 }
 
-FeatureMatch MatchFeatures(const Features& old, const Features& fresh, const LoopConfig& config) {
+std::optional<Eigen::Isometry3d> MatchFeatures(const Features& old, const Features& fresh,
+                                               const LoopConfig& config) {
     constexpr double kTolerance_m = 0.025, kWholeSpread_m = 1;
     std::vector<Eigen::Vector3f> p_old, p_new;
     for (const auto& [i, j] : MatchDescriptors(old.descriptors, fresh.descriptors)) {
         p_old.push_back(old.p_camera[static_cast<std::size_t>(i)]);
         p_new.push_back(fresh.p_camera[static_cast<std::size_t>(j)]);
     }
-    FeatureMatch match;
-    if (static_cast<int>(p_old.size()) < config.min_inliers) return match;
+    if (std::ssize(p_old) < config.min_inliers) return std::nullopt;
     const RigidFit fit = FitRigid(p_old, p_new, kTolerance_m);
-    match.T_old_new = fit.T_a_b;
-    match.inliers = static_cast<int>(fit.inliers.size());
-    match.spread_m = fit.spread_m;
-    if (match.inliers < config.min_inliers) return match;
+    if (std::ssize(fit.inliers) < config.min_inliers) return std::nullopt;
     // What a camera sees of a near surface is small.
     const double nearness = std::min(1.0, MedianDepth_m(p_old, fit.inliers) / kWholeSpread_m);
-    match.accepted = match.spread_m >= config.min_spread_m * nearness;
-    return match;
+    if (fit.spread_m < config.min_spread_m * nearness) return std::nullopt;
+    return fit.T_a_b;
 }
 
 }  // namespace tessera

@@ -1,7 +1,5 @@
 #include "optimize/field_check.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "mapping/field_sampler.h"
@@ -20,14 +18,11 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
                                FrameStore& store) {
     constexpr double kAsWell = 0.9;
     FieldVerdict verdict;
-    if (old_frames.empty()) {
-        verdict.reason = "the old keyframe's images are missing";
-        return verdict;
-    }
+    if (old_frames.empty()) return verdict;
     FuseOld(old_frames, store);
     const TrackResult forward = Track(fresh.prepared, fresh.motion, fresh.T_old_new_features);
     verdict.T_old_new = forward.T_world_camera;
-    if (verdict.reason = Fault(forward); !verdict.reason.empty()) return verdict;
+    if (!Fits(forward)) return verdict;
     verdict.closed_before = fresh.T_old_new_expected &&
                             InlierShare(fresh.prepared, *fresh.T_old_new_expected) >=
                                 kAsWell * InlierShare(fresh.prepared, forward.T_world_camera);
@@ -37,25 +32,16 @@ FieldVerdict FieldCheck::Check(std::span<const NearFrame> old_frames, const Fres
     view.motion = fresh.motion;
     integrator_.Integrate(fresh.prepared, view, map_);
     const StoredFrame& old = *old_frames.front().stored;
-    if (!Load(old, store)) {
-        verdict.reason = "the old keyframe's images are damaged";
-        return verdict;
-    }
+    if (!Load(old, store)) return verdict;
     const TrackResult backward =
         Track(prepared_, old.view.motion, forward.T_world_camera.inverse());
-    if (verdict.reason = Fault(backward); !verdict.reason.empty()) {
-        verdict.reason = "in the reverse check, " + verdict.reason;
-        return verdict;
-    }
+    if (!Fits(backward)) return verdict;
     verdict.explained = std::min(forward.known_fraction * forward.inlier_fraction,
                                  backward.known_fraction * backward.inlier_fraction);
     const Eigen::Isometry3d disagreement = forward.T_world_camera * backward.T_world_camera;
     const double off_m = disagreement.translation().norm();
     const double off_rad = RotationAngle(disagreement, Eigen::Isometry3d::Identity());
     verdict.accepted = off_m <= config_.max_disagreement_m && off_rad <= config_.max_disagreement_m;
-    if (!verdict.accepted)
-        verdict.reason = fmt::format(
-            "forward and reverse alignment disagree by {:.3f} m and {:.3f} rad", off_m, off_rad);
     return verdict;
 }
 
@@ -107,18 +93,10 @@ double FieldCheck::InlierShare(const PreparedFrame& frame,
     return known > 0 ? static_cast<double>(fit) / known : 0;
 }
 
-std::string FieldCheck::Fault(const TrackResult& track) const {
-    if (track.status != TrackStatus::kGood) return track.reason;
-    if (track.degenerate)
-        return fmt::format("one direction of motion is only known to within {:.0f} mm",
-                           1000 * track.uncertainty_m);
-    if (track.known_fraction < config_.min_known_fraction)
-        return fmt::format("only {:.0f} % of the depth lies in the field",
-                           100 * track.known_fraction);
-    if (track.inlier_fraction < config_.min_fit)
-        return fmt::format("only {:.0f} % of the depth fits the field",
-                           100 * track.inlier_fraction);
-    return {};
+bool FieldCheck::Fits(const TrackResult& track) const {
+    return track.status == TrackStatus::kGood && !track.degenerate &&
+           track.known_fraction >= config_.min_known_fraction &&
+           track.inlier_fraction >= config_.min_fit;
 }
 
 }  // namespace tessera

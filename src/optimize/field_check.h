@@ -50,7 +50,6 @@ struct FieldVerdict {
     // Share of the depth of one side that lies on the surface of the other; the smaller of the two.
     double explained = 0;
     Eigen::Isometry3d T_old_new = Eigen::Isometry3d::Identity();
-    std::string reason;  // why it was rejected; empty if accepted
 };
 
 // Owner thread only.
@@ -68,7 +67,7 @@ class FieldCheck {
     TrackResult Track(const PreparedFrame& frame, const FrameMotion& motion,
                       const Eigen::Isometry3d& T_field_camera);
     double InlierShare(const PreparedFrame& frame, const Eigen::Isometry3d& T_field_camera) const;
-    std::string Fault(const TrackResult& track) const;
+    bool Fits(const TrackResult& track) const;
 
     FieldSettings settings_;
     LoopConfig config_;

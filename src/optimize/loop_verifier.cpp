@@ -29,15 +29,12 @@ Drift DriftOf(const Keyframe& old, const Keyframe& fresh, const Eigen::Isometry3
 }
 
 LoopVerifier::Match LoopVerifier::MatchKeyframes(const Keyframe& old, const Keyframe& fresh) const {
-    const FeatureMatch match = MatchFeatures(old.features, fresh.features, config_);
-    if (!match.accepted)
-        return {std::nullopt, fmt::format("{} features fit, spread over {:.2f} m", match.inliers,
-                                          match.spread_m)};
-    const Drift drift = DriftOf(old, fresh, match.T_old_new, config_.max_drift);
-    if (!drift.conceivable)
-        return {std::nullopt, fmt::format("it implies a drift of {:.2f} m and {:.2f} rad",
-                                          drift.off_m, drift.off_rad)};
-    return {match.T_old_new, {}, !drift.possible || drift.off_m > kAlways};
+    const std::optional<Eigen::Isometry3d> T_old_new =
+        MatchFeatures(old.features, fresh.features, config_);
+    if (!T_old_new) return {};
+    const Drift drift = DriftOf(old, fresh, *T_old_new, config_.max_drift);
+    if (!drift.conceivable) return {};
+    return {T_old_new, !drift.possible || drift.off_m > kAlways};
 }
 
 FieldVerdict LoopVerifier::VerifyLoop(const Keyframes& keyframes, const Keyframe& old,

@@ -30,7 +30,6 @@ class LoopVerifier {
 
     struct Match {
         std::optional<Eigen::Isometry3d> T_old_new;
-        std::string reason;            // why there is none
         bool ask_for_texture = false;  // with less drift it would be another place of that kind
     };
     // By features, if the drift that follows is conceivable.

@@ -41,14 +41,15 @@ std::vector<PlaceFinder::Place> PlaceFinder::PlacesOf(const View& view, const Al
         if (graph_.LeftOut(candidate.keyframe) || !allows(candidate.keyframe)) continue;
         if (--left < 0) break;
         const Keyframe& old = keyframes[candidate.keyframe];
-        const FeatureMatch match = MatchFeatures(old.features, view.features, config_);
-        if (!match.accepted) continue;
-        const Eigen::Isometry3d T_map_guess = old.T_map_camera * match.T_old_new;
+        const std::optional<Eigen::Isometry3d> T_old_new =
+            MatchFeatures(old.features, view.features, config_);
+        if (!T_old_new) continue;
+        const Eigen::Isometry3d T_map_guess = old.T_map_camera * *T_old_new;
         if (std::ranges::any_of(places, [&](const Place& place) {
                 return SamePlace(place.T_map_camera, T_map_guess);
             }))
             continue;
-        const ViewAlignment aligned = graph_.overlaps().AlignView(old, view.dense, match.T_old_new);
+        const ViewAlignment aligned = graph_.overlaps().AlignView(old, view.dense, *T_old_new);
         if (!aligned.converged || aligned.overlap < config_.min_known_fraction ||
             aligned.fit < config_.min_fit ||
             !SameTexture(graph_.overlaps().ViewOf(old), view.dense, aligned.T_a_b))

@@ -259,7 +259,6 @@ TEST(LoopCloser, FindsNoCameraAtAKeyframeWhoseFrameIsMissing) {
                                      .VerifyPlace(whole.keyframes(), whole.keyframes()[0], prepared,
                                                   Eigen::Isometry3d::Identity(), none);
     EXPECT_FALSE(verdict.accepted);
-    EXPECT_EQ(verdict.reason, "the old keyframe's images are missing");
 }
 
 TEST(DriftOf, GrowsWithTheWay) {
