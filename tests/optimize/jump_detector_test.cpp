@@ -29,7 +29,7 @@ TEST(JumpDetector, AFrameThatIsMissingIsNoJumpAndHidesNone) {
         for (int i = 0; i < 20; ++i) detector.Follow(Stamp_s(i), At(0.03 * i));
         const auto expected = detector.Follow(Stamp_s(21), At(0.03 * 21 + slip_m));
         ASSERT_EQ(expected.has_value(), slip_m > 0);
-        if (expected) EXPECT_TRUE(expected->isApprox(At(0.03 * 21), 1e-9));
+        EXPECT_TRUE(expected.value_or(At(0.03 * 21)).isApprox(At(0.03 * 21), 1e-9));
         for (int i = 22; i < 30; ++i)
             EXPECT_FALSE(detector.Follow(Stamp_s(i), At(0.03 * i + slip_m))) << i;
     }
