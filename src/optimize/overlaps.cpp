@@ -102,11 +102,11 @@ bool OverlapFinder::AlignOnce(Keyframes& keyframes, int id, int with,
                               const Eigen::Isometry3d& T_with_this) {
     constexpr double kGrid = 0.02;  // metres and radians
     const Vector6d start = (Se3Log(T_with_this) / kGrid).array().round();
-    Pair pair{with, id};
-    for (int i = 0; i < 6; ++i) pair[static_cast<std::size_t>(2 + i)] = static_cast<int>(start(i));
-    if (failed_.contains(pair)) return false;
+    const Cell cell = start.cast<int>();
+    const auto failed = failed_.find({with, id});
+    if (failed != failed_.end() && failed->second == cell) return false;
     if (Align(keyframes, id, with, Se3Exp(kGrid * start), false)) return true;
-    failed_.insert(pair);
+    failed_[{with, id}] = cell;
     return false;
 }
 

@@ -2,9 +2,9 @@
 // what the alignment says is weighed against how they were tracked.
 #pragma once
 
-#include <array>
 #include <list>
-#include <set>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "optimize/covariance_factors.h"
@@ -47,15 +47,15 @@ class OverlapFinder {
         DenseView view;
     };
 
-    // Two keyframes, and in which cell of a grid their relative pose is.
-    using Pair = std::array<int, 8>;
+    // In which cell of a grid a relative pose is.
+    using Cell = Eigen::Matrix<int, 6, 1>;
 
     std::vector<int> Candidates(const Keyframes& keyframes, int id) const;
     bool AlignOnce(Keyframes& keyframes, int id, int with, const Eigen::Isometry3d& T_with_this);
 
     PinholeCamera camera_;
-    std::set<Pair> failed_;    // not aligned by AlignOnce
-    std::list<Cached> cache_;  // most recently used first
+    std::map<std::pair<int, int>, Cell> failed_;  // by keyframes: where AlignOnce failed last
+    std::list<Cached> cache_;                     // most recently used first
 };
 
 // True if the other keyframe is not one of the last few before `id`.
