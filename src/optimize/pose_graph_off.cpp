@@ -1,6 +1,6 @@
 // Stubs for builds without Ceres; they return errors.
-#include "optimize/calibration_solver.h"
 #include "optimize/pose_graph.h"
+#include "optimize/self_calibration.h"
 
 namespace tessera {
 
@@ -10,9 +10,10 @@ Status OptimisePoses(std::span<const PoseEdge>, std::vector<Eigen::Isometry3d>&)
     return Status::Error("this build has no pose graph; install libceres-dev and rebuild");
 }
 
-Result<CalibrationEstimate> SolveCalibration(const CalibrationProblem&,
-                                             const std::vector<Eigen::Isometry3d>&,
-                                             const CalibrationMask&) {
+Result<CalibrationReport> RefineCalibration(const PinholeCamera&,
+                                            const std::vector<CalibrationView>&,
+                                            std::span<const PoseEdge>,
+                                            std::vector<Eigen::Isometry3d>&) {
     return Status::Error("this build cannot calibrate; install libceres-dev and rebuild");
 }
 
