@@ -1,6 +1,7 @@
 #include "optimize/camera_estimator.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "optimize/camera_fit.h"
 #include "optimize/camera_pairs.h"
@@ -37,22 +38,7 @@ std::optional<CameraEstimate> CameraEstimator::Estimate() const {
         pair.velocity_from = Velocity(pair.from);
         pair.velocity_to = Velocity(pair.to);
     }
-    const CameraFit fit = FitCamera(views_, camera_, pairs);
-    if (fit.pairs == 0) return std::nullopt;
-    CameraEstimate estimate;
-    estimate.given = camera_;
-    estimate.found = fit.unknowns.Applied(camera_);
-    estimate.focal_sigma_px = fit.deviations(0) * estimate.found.fx;
-    estimate.centre_x_sigma_px = fit.deviations(1) * camera_.width;
-    estimate.centre_y_sigma_px = fit.deviations(2) * camera_.width;
-    estimate.readout_s = fit.unknowns.readout_s;
-    estimate.readout_sigma_s = fit.deviations(3);
-    estimate.vignetting = fit.unknowns.vignetting;
-    estimate.vignetting_sigma = fit.deviations(4);
-    estimate.misfit_given = fit.misfit_given;
-    estimate.misfit_found = fit.misfit_found;
-    estimate.pairs = fit.pairs;
-    return estimate;
+    return FitCamera(views_, camera_, std::move(pairs));
 }
 
 }  // namespace tessera

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/quantile.h"
 
@@ -25,7 +26,7 @@ constexpr double kLongestStep_rad = 0.1;  // per iteration
 constexpr double kBefore[kCount] = {0.2, 0.01, 0.01, 0.02, 0.3};
 constexpr double kTogether = 100;
 
-using Vector = CameraFit::Vector;
+using Vector = Eigen::Matrix<double, kCount, 1>;
 using Matrix = Eigen::Matrix<double, kCount, kCount>;
 
 // Contribution of one pair, its own unknowns eliminated (Schur complement).
@@ -54,8 +55,8 @@ struct Share {
 class Fit {
   public:
     Fit(const std::vector<CameraView>& views, const PinholeCamera& given,
-        std::vector<CameraPair>& pairs)
-        : views_(views), given_(given), pairs_(pairs) {
+        std::vector<CameraPair> pairs)
+        : views_(views), given_(given), pairs_(std::move(pairs)) {
         for (int i = 0; i < kCount; ++i) before_(i, i) = kTogether / (kBefore[i] * kBefore[i]);
     }
 
@@ -190,7 +191,7 @@ class Fit {
 
     const std::vector<CameraView>& views_;
     const PinholeCamera given_;
-    std::vector<CameraPair>& pairs_;
+    std::vector<CameraPair> pairs_;
     CameraUnknowns unknowns_;
     std::vector<CameraPairSums> sums_;
     std::vector<Share> shares_;  // one per usable pair, in order
@@ -201,10 +202,9 @@ class Fit {
 
 }  // namespace
 
-CameraFit FitCamera(const std::vector<CameraView>& views, const PinholeCamera& given,
-                    std::vector<CameraPair>& pairs) {
-    Fit fit(views, given, pairs);
-    CameraFit result;
+std::optional<CameraEstimate> FitCamera(const std::vector<CameraView>& views,
+                                        const PinholeCamera& given, std::vector<CameraPair> pairs) {
+    Fit fit(views, given, std::move(pairs));
     fit.Refine(0, 6, false);
     fit.Refine(0, 8, true);
     fit.Refine(1, 8, true);
@@ -212,18 +212,27 @@ CameraFit FitCamera(const std::vector<CameraView>& views, const PinholeCamera& g
     fit.Refine(2, 5, true);
     fit.RejectOutlierPairs();
     fit.HoldScales();
-    result.misfit_found = fit.Refine(2, 8, true);
-    result.unknowns = fit.unknowns();
-    result.pairs = fit.usable();
-    if (result.pairs < kLeastPairs) return CameraFit{};
-    result.deviations = fit.Deviations();
+    CameraEstimate estimate;
+    estimate.misfit_found = fit.Refine(2, 8, true);
+    estimate.pairs = fit.usable();
+    if (estimate.pairs < kLeastPairs) return std::nullopt;
+    CameraUnknowns unknowns = fit.unknowns();
+    const Vector deviations = fit.Deviations();
+    estimate.given = given;
+    estimate.found = unknowns.Applied(given);
+    estimate.focal_sigma_px = deviations(0) * estimate.found.fx;
+    estimate.centre_x_sigma_px = deviations(1) * given.width;
+    estimate.centre_y_sigma_px = deviations(2) * given.width;
+    estimate.readout_s = unknowns.readout_s;
+    estimate.readout_sigma_s = deviations(3);
+    estimate.vignetting = unknowns.vignetting;
+    estimate.vignetting_sigma = deviations(4);
     // Misfit of the given camera, with its own motions but the estimated read-out time and
     // vignetting.
-    CameraUnknowns as_given = result.unknowns;
-    as_given.log_focal = as_given.centre_x = as_given.centre_y = 0;
-    fit.Set(as_given);
-    result.misfit_given = fit.Refine(2, 4, false);
-    return result;
+    unknowns.log_focal = unknowns.centre_x = unknowns.centre_y = 0;
+    fit.Set(unknowns);
+    estimate.misfit_given = fit.Refine(2, 4, false);
+    return estimate;
 }
 
 }  // namespace tessera

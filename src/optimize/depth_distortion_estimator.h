@@ -3,32 +3,15 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/camera.h"
-#include "core/depth_distortion.h"
 #include "core/frame.h"
+#include "optimize/depth_distortion_fit.h"
 #include "optimize/depth_view.h"
 #include "tracking/image_aligner.h"
 
 namespace tessera {
-
-struct DepthDistortionEstimate {
-    DepthDistortion found;
-    // Root mean square over the image, and its standard deviation.
-    double rms_per_m = 0, sigma_per_m = 0;
-    double largest_per_m = 0;
-    double noise_per_m = 0;  // standard deviation of a measurement, averaged over a few pixels
-    int pairs = 0;           // of compared views
-    bool used = false;       // it was corrected
-
-    // True if the recording shows more than such an estimate can be wrong, and more than noise.
-    bool shown() const;
-};
-
-// "depth is up to 15 mm wrong at 1 m, depending on the place in the image (6.5 +- 0.3 mm rms)".
-std::string DepthDistortionText(const DepthDistortionEstimate& estimate);
 
 // Owner thread only. Stores about 0.3 MB per frame.
 class DepthDistortionEstimator {

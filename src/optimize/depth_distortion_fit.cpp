@@ -1,8 +1,11 @@
 #include "optimize/depth_distortion_fit.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/quantile.h"
 #include "core/se3.h"
@@ -29,8 +32,10 @@ constexpr double kWorstPair = 2;  // a pair's residuals beside the median pair's
 class DistortionFit {
   public:
     DistortionFit(const std::vector<DepthView>& views, const PinholeCamera& camera,
-                  std::vector<DepthPair>& pairs)
-        : views_(views), pairs_(pairs), camera_(Averaged(camera, views.front().reduction)) {
+                  std::vector<DepthPair> pairs)
+        : views_(views),
+          pairs_(std::move(pairs)),
+          camera_(Averaged(camera, views.front().reduction)) {
         before_ = Eigen::MatrixXd::Identity(kNodes, kNodes) / (kNodeBefore * kNodeBefore);
         const Eigen::VectorXd share = ShareOfNodes();
         before_ += share * share.transpose() / (kMeanBefore * kMeanBefore);
@@ -86,16 +91,20 @@ class DistortionFit {
             pairs_[measured[k]].usable = scales[k] <= worst;
     }
 
-    DepthDistortionFit Result() const {
-        DepthDistortionFit fit;
-        fit.pairs = static_cast<int>(
+    std::optional<DepthDistortionEstimate> Result() const {
+        DepthDistortionEstimate estimate;
+        estimate.pairs = static_cast<int>(
             std::count_if(pairs_.begin(), pairs_.end(), [](const auto& p) { return p.usable; }));
-        if (fit.pairs < kFewestViewPairs) return {};
-        fit.distortion = {kAcross, kDown, {}};
-        for (int i = 0; i < kNodes; ++i)
-            fit.distortion.per_m.push_back(static_cast<float>(nodes_.per_m(i)));
-        fit.noise_per_m = factor_ * kDepthNoise_per_m;
-        fit.rms_per_m = nodes_.per_m.norm() / std::sqrt(kNodes);
+        if (estimate.pairs < kFewestViewPairs) return std::nullopt;
+        estimate.found = {kAcross, kDown, {}};
+        for (int i = 0; i < kNodes; ++i) {
+            const auto error = static_cast<float>(nodes_.per_m(i));
+            estimate.found.per_m.push_back(error);
+            estimate.largest_per_m =
+                std::max(estimate.largest_per_m, static_cast<double>(std::abs(error)));
+        }
+        estimate.noise_per_m = factor_ * kDepthNoise_per_m;
+        estimate.rms_per_m = nodes_.per_m.norm() / std::sqrt(kNodes);
         const auto solver = hessian_.ldlt();
         double spread = 0;
         for (const Eigen::MatrixXd* parts : {&by_time_, &by_depth_}) {
@@ -103,8 +112,8 @@ class DistortionFit {
             const Eigen::MatrixXd apart = parts->colwise() - parts->rowwise().mean();
             spread += count / (count - 1) * solver.solve(apart).squaredNorm();
         }
-        fit.sigma_per_m = std::sqrt(spread / kNodes);
-        return fit;
+        estimate.sigma_per_m = std::sqrt(spread / kNodes);
+        return estimate;
     }
 
   private:
@@ -178,7 +187,7 @@ class DistortionFit {
     const DepthView& View(int i) const { return views_[static_cast<std::size_t>(i)]; }
 
     const std::vector<DepthView>& views_;
-    std::vector<DepthPair>& pairs_;
+    std::vector<DepthPair> pairs_;
     const PinholeCamera camera_;
     double factor_ = kFirstFactor;
     DistortionNodes nodes_;
@@ -191,10 +200,29 @@ class DistortionFit {
 
 }  // namespace
 
-DepthDistortionFit FitDepthDistortion(const std::vector<DepthView>& views,
-                                      const PinholeCamera& camera, std::vector<DepthPair>& pairs) {
-    if (pairs.empty()) return {};
-    DistortionFit fit(views, camera, pairs);
+bool DepthDistortionEstimate::shown() const {
+    // In standard deviations. What is left after the correction is then a ninth of the error's
+    // square.
+    constexpr double kSure = 3;
+    // Of the noise, which is taken to be at least this. Noisy cameras seem to have errors of the
+    // size of their noise, and exact ones of half a millimetre at 1 m.
+    constexpr double kAboveNoise = 2, kLeastNoise_per_m = 0.0005;
+    return rms_per_m >
+           std::max(kSure * sigma_per_m, kAboveNoise * std::max(noise_per_m, kLeastNoise_per_m));
+}
+
+std::string DepthDistortionText(const DepthDistortionEstimate& estimate) {
+    return fmt::format(
+        "depth is up to {:.0f} mm wrong at 1 m, depending on the place in the image ({:.1f} +- "
+        "{:.1f} mm rms)",
+        1000 * estimate.largest_per_m, 1000 * estimate.rms_per_m, 1000 * estimate.sigma_per_m);
+}
+
+std::optional<DepthDistortionEstimate> FitDepthDistortion(const std::vector<DepthView>& views,
+                                                          const PinholeCamera& camera,
+                                                          std::vector<DepthPair> pairs) {
+    if (pairs.empty()) return std::nullopt;
+    DistortionFit fit(views, camera, std::move(pairs));
     for (int i = 0; i < 3; ++i) fit.Iterate(true);
     for (int i = 0; i < 6; ++i) fit.Iterate(false);
     return fit.Result();
