@@ -66,9 +66,10 @@ void AddSeenFrom(const DepthImage& first_m, const DepthImage& depth_m, const Pin
 
 }  // namespace
 
-void FrameAverage::Begin(const Frame& frame, const Eigen::Isometry3d& T_keyframe_camera,
-                         const Integrator::View& view) {
+void FrameAverage::Begin(const Frame& frame, const PinholeCamera& camera,
+                         const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view) {
     frame_ = frame;
+    camera_ = camera;
     T_keyframe_camera_ = T_keyframe_camera;
     view_ = view;
     count_ = 1;

@@ -14,12 +14,10 @@ namespace tessera {
 // Owner thread only; uses TBB internally and gives the same result for any number of threads.
 class FrameAverage {
   public:
-    explicit FrameAverage(const PinholeCamera& camera) : camera_(camera) {}
-
-    // `T_keyframe_camera`: of the frame, relative to any pose that stays the same until the next
-    // Begin.
-    void Begin(const Frame& frame, const Eigen::Isometry3d& T_keyframe_camera,
-               const Integrator::View& view);
+    // `camera`: of all frames until the next Begin. `T_keyframe_camera`: of the frame, relative to
+    // any pose that stays the same until then.
+    void Begin(const Frame& frame, const PinholeCamera& camera,
+               const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view);
     // Adds a frame. Returns false, and adds nothing, if there is no first one, if the camera has
     // moved too far from it, if enough are in it, or if only one of the two has colour that is
     // fused.

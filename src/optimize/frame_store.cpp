@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/jpeg_decoder.h"
 #include "io/jpeg_encoder.h"
@@ -18,6 +19,36 @@ constexpr int kJpegQuality = 92, kMaxSide_px = 65500;
 
 Status FrameStore::Add(const Frame& frame, int keyframe, bool is_keyframe,
                        const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view) {
+    if (Status stored = StoreAverage(); !stored.ok()) return stored;
+    return Store(frame, keyframe, is_keyframe, T_keyframe_camera, view);
+}
+
+Status FrameStore::AddAveraged(const Frame& frame, const PinholeCamera& camera, int keyframe,
+                               const Eigen::Isometry3d& T_keyframe_camera,
+                               const Integrator::View& view) {
+    if (average_.Add(frame, T_keyframe_camera, view)) return Status::Ok();
+    if (Status stored = StoreAverage(); !stored.ok()) return stored;
+    average_.Begin(frame, camera, T_keyframe_camera, view);
+    keyframe_ = keyframe;
+    return Status::Ok();
+}
+
+Status FrameStore::StoreAverage() {
+    if (average_.empty()) return Status::Ok();
+    return Store(average_.Take(), keyframe_, false, average_.T_keyframe_camera(), average_.view());
+}
+
+// A map without these frames is still a map.
+void FrameStore::StoreLatest() {
+    if (Status stored = StoreAverage(); !stored.ok()) trouble_ = stored.message();
+}
+
+std::string FrameStore::TakeTrouble() {
+    return trouble_.empty() ? scratch_.TakeTrouble() : std::exchange(trouble_, {});
+}
+
+Status FrameStore::Store(const Frame& frame, int keyframe, bool is_keyframe,
+                         const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view) {
     const std::int64_t ordinal = next_ordinal_++;
     if (!is_keyframe && ordinal % stride_ != 0) return Status::Ok();
     StoredFrame stored{ordinal,     keyframe,      is_keyframe,          T_keyframe_camera,

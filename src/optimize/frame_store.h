@@ -1,10 +1,11 @@
-// The frames fused into the map, compressed, each with its pose relative to a keyframe.
-// The map is rebuilt from them when keyframes have moved.
+// The frames fused into the map, compressed, each with its pose relative to a keyframe: alone, or
+// averaged with its neighbours. The map is rebuilt from them when keyframes have moved.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/frame.h"
@@ -13,6 +14,7 @@
 #include "io/png_decoder.h"
 #include "io/png_encoder.h"
 #include "mapping/integrator.h"
+#include "optimize/frame_average.h"
 #include "optimize/stored_detections.h"
 #include "optimize/stored_images.h"
 #include "semantics/detector.h"
@@ -55,6 +57,12 @@ class FrameStore {
     // not fuse is not kept. Returns errors of the encoder.
     Status Add(const Frame& frame, int keyframe, bool is_keyframe,
                const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view);
+    // For a frame that may be averaged with its neighbours, all of one camera. The average is
+    // stored when a frame comes that is not part of it.
+    Status AddAveraged(const Frame& frame, const PinholeCamera& camera, int keyframe,
+                       const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view);
+    // Stores the average of the latest frames, too, so that the store has all of them.
+    void StoreLatest();
     // Adds detections to a frame that this process added, if it is still stored. `ignored`: classes
     // whose detections were dropped.
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections,
@@ -78,12 +86,15 @@ class FrameStore {
     const std::vector<StoredFrame>& frames() const { return frames_; }
     std::int64_t next_ordinal() const { return next_ordinal_; }
     std::size_t memory_bytes() const { return bytes_; }
-    // Returns once why images are kept in memory; usually empty.
-    std::string TakeTrouble() { return scratch_.TakeTrouble(); }
+    // Returns once why frames are missing, or why images are kept in memory; usually empty.
+    std::string TakeTrouble();
     // Of the stored ordinals; 1 until the limit is first reached.
     int stride() const { return stride_; }
 
   private:
+    Status Store(const Frame& frame, int keyframe, bool is_keyframe,
+                 const Eigen::Isometry3d& T_keyframe_camera, const Integrator::View& view);
+    Status StoreAverage();
     void ThinToLimit();
     void Thin();
     Status DecodeDepth(const std::vector<std::uint8_t>& png, DepthImage& depth_m);
@@ -91,6 +102,9 @@ class FrameStore {
     std::size_t limit_bytes_, bytes_ = 0;
     double depth_units_per_m_;
     ImageScratch scratch_;
+    FrameAverage average_;  // of the latest frames, not stored yet
+    int keyframe_ = 0;      // of the average
+    std::string trouble_;
     std::int64_t next_ordinal_ = 0;
     // First ordinal of this process; earlier frames were resumed, and their frame indices may
     // repeat.

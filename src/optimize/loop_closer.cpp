@@ -17,12 +17,11 @@ LoopCloser::LoopCloser(const LoopConfig& config, const FieldSettings& settings,
                        double depth_units_per_m, std::optional<Labels> labels, MakePager make_pager)
     : config_(config),
       settings_(settings),
-      frames_(settings.camera, Bytes(config.memory_limit_mb), depth_units_per_m,
-              config.average_frames),
+      store_(Bytes(config.memory_limit_mb), depth_units_per_m),
       graph_(config, settings.camera),
-      places_(config, settings, graph_, frames_.store()),
+      places_(config, settings, graph_, store_),
       joiner_(graph_),
-      corrector_(settings_, graph_, frames_, std::move(labels), std::move(make_pager)) {}
+      corrector_(settings_, graph_, store_, std::move(labels), std::move(make_pager)) {}
 
 void LoopCloser::Resume(Memory memory) {
     graph_.Resume(std::move(memory.graph));
@@ -37,7 +36,7 @@ void LoopCloser::Resume(Memory memory) {
         if (std::erase_if(detections, unknown) > 0)
             frame.detections = StoredDetections(std::move(detections), frame.detections->ignored());
     }
-    frames_.store().Resume(std::move(memory.frames), memory.next_ordinal);
+    store_.Resume(std::move(memory.frames), memory.next_ordinal);
     AddPlaces();
     MakeMissingViews();
 }
@@ -46,7 +45,7 @@ void LoopCloser::Resume(Memory memory) {
 void LoopCloser::AddPlaces() {
     const Keyframes& keyframes = graph_.keyframes();
     std::vector<bool> stored(static_cast<std::size_t>(keyframes.size()), false);
-    for (const StoredFrame& frame : frames_.store().frames())
+    for (const StoredFrame& frame : store_.frames())
         if (frame.is_keyframe) stored[static_cast<std::size_t>(frame.keyframe)] = true;
     for (const Keyframe& keyframe : keyframes.all())
         if (stored[static_cast<std::size_t>(keyframe.id)]) places_.Add(keyframe);
@@ -57,10 +56,9 @@ void LoopCloser::MakeMissingViews() {
     Keyframes& keyframes = graph_.keyframes();
     Frame frame;
     PreparedFrame prepared;
-    for (const StoredFrame& stored : frames_.store().frames()) {
+    for (const StoredFrame& stored : store_.frames()) {
         if (!stored.is_keyframe || !keyframes[stored.keyframe].reduced.empty()) continue;
-        if (frames_.store()
-                .LoadPrepared(stored, settings_.camera, settings_.preparation, frame, prepared)
+        if (store_.LoadPrepared(stored, settings_.camera, settings_.preparation, frame, prepared)
                 .ok())
             keyframes[stored.keyframe].reduced =
                 MakeReducedView(prepared, settings_.camera, stored.view.motion);
@@ -103,11 +101,13 @@ std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
     graph_.AddPassage(frame.stamp_s, T_map_camera, fused);
     if (!fused) return {};
     const Keyframe& last = keyframes.last();
-    // Detections belong to one image.
-    const bool alone = corrector_.labels().has_value();
+    const Eigen::Isometry3d& T_keyframe_camera = graph_.passages().back().T_keyframe_camera;
+    // Calibration compares the keyframes' own frames, and detections belong to one image.
+    const bool averaged = config_.average_frames && !keyframe && !corrector_.labels();
+    const Frame kept = WithoutLeftOut(frame, prepared, settings_.preparation);
     const Status stored =
-        frames_.Add(WithoutLeftOut(frame, prepared, settings_.preparation), last.id, keyframe,
-                    alone, graph_.passages().back().T_keyframe_camera, view);
+        averaged ? store_.AddAveraged(kept, settings_.camera, last.id, T_keyframe_camera, view)
+                 : store_.Add(kept, last.id, keyframe, T_keyframe_camera, view);
     std::string news;
     if (keyframe && stored.ok()) {
         if (config_.overlaps) graph_.overlaps().Find(keyframes, last.id, true);
@@ -195,7 +195,7 @@ void LoopCloser::DiscardCopy() {
 
 std::string LoopCloser::TakeError() {
     std::string trouble = corrector_.TakeTrouble();
-    return trouble.empty() ? frames_.TakeTrouble() : trouble;
+    return trouble.empty() ? store_.TakeTrouble() : trouble;
 }
 
 }  // namespace tessera

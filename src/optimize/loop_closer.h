@@ -55,7 +55,7 @@ class LoopCloser {
     // Adds the detections of an earlier frame, at any time. `ignored`: see FrameStore.
     void AddDetections(std::int64_t frame_index, std::vector<Detection> detections,
                        const ClassSet& ignored) {
-        frames_.store().AddDetections(frame_index, std::move(detections), ignored);
+        store_.AddDetections(frame_index, std::move(detections), ignored);
     }
     // Corrected maps that are begun from now on have labels.
     void EnableLabels(Labels labels) { corrector_.EnableLabels(std::move(labels)); }
@@ -106,7 +106,7 @@ class LoopCloser {
     std::vector<StampedPose> Path() const { return graph_.Path(); }
     const Keyframes& keyframes() const { return graph_.keyframes(); }
     const ScanGraph& graph() const { return graph_; }
-    const FrameStore& store() const { return frames_.store(); }
+    const FrameStore& store() const { return store_; }
     // Set after Finish if the calibration was refined and the scan allowed an estimate.
     const std::optional<CalibrationReport>& calibration() const { return calibration_; }
 
@@ -133,7 +133,7 @@ class LoopCloser {
 
     LoopConfig config_;
     FieldSettings settings_;
-    FrameKeeper frames_;
+    FrameStore store_;
     ScanGraph graph_;
     PlaceFinder places_;
     PartJoiner joiner_;

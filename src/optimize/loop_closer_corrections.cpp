@@ -75,7 +75,7 @@ std::optional<LoopCloser::Correction> LoopCloser::MakeAll() {
 bool LoopCloser::Calibrate(std::string& note) {
     if (!config_.refine_calibration || graph_.keyframes().empty()) return false;
     const FieldSettings given = settings_;
-    const Result<CalibrationReport> found = CalibrateScan(graph_, frames_.store(), settings_);
+    const Result<CalibrationReport> found = CalibrateScan(graph_, store_, settings_);
     if (found.ok()) calibration_ = found.value();
     note = found.ok() ? CalibrationText(given.camera, given.preparation.disparity_offset_per_m,
                                         found.value())
@@ -86,7 +86,7 @@ bool LoopCloser::Calibrate(std::string& note) {
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
                                                          const BlockMap* in_use) {
     std::optional<Correction> last;
-    frames_.StoreLatest();
+    store_.StoreLatest();
     if (seeking_ && graph_.corrected())
         static_cast<void>(graph_.OptimiseAgain());  // else as it was
     const bool calibrated = Calibrate(note);

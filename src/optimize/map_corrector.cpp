@@ -84,8 +84,8 @@ void MapCorrector::AddKeyframe() {
 
 std::unique_ptr<MapRebuild> MapCorrector::Step(int frames) {
     // The map in use holds the latest frames, too.
-    if (made_->Left(frames_.store()) <= frames) frames_.StoreLatest();
-    const Result<bool> done = made_->Step(frames_.store(), frames);
+    if (made_->Left(store_) <= frames) store_.StoreLatest();
+    const Result<bool> done = made_->Step(store_, frames);
     if (!done.ok()) Stop(done.status());
     if (!done.ok() || !done.value()) return nullptr;
     doubtful_ = made_->TakeDoubtful();

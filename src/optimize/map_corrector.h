@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimize/frame_keeper.h"
+#include "optimize/frame_store.h"
 #include "optimize/map_rebuild.h"
 #include "optimize/scan_graph.h"
 
@@ -27,11 +27,11 @@ class MapCorrector {
     using MakePager = std::function<Result<std::unique_ptr<MapPager>>()>;
 
     // All references outlive the corrector.
-    MapCorrector(const FieldSettings& settings, const ScanGraph& graph, FrameKeeper& frames,
+    MapCorrector(const FieldSettings& settings, const ScanGraph& graph, FrameStore& store,
                  std::optional<Labels> labels, MakePager make_pager)
         : settings_(settings),
           graph_(graph),
-          frames_(frames),
+          store_(store),
           labels_(std::move(labels)),
           make_pager_(std::move(make_pager)) {}
 
@@ -86,7 +86,7 @@ class MapCorrector {
 
     const FieldSettings& settings_;
     const ScanGraph& graph_;
-    FrameKeeper& frames_;
+    FrameStore& store_;
     std::optional<Labels> labels_;
     MakePager make_pager_;
     std::unique_ptr<MapRebuild> made_;  // null if the map in use is up to date

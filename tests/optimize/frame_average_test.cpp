@@ -50,8 +50,8 @@ double Rms_m(const DepthImage& a, const DepthImage& b, int border) {
 TEST(FrameAverage, IsTheFirstViewOfTheSameSurface) {
     const Eigen::Isometry3d first = MovedPose(0, 0);
     const Frame true_first = FrameFrom(first);
-    FrameAverage average(SmallCamera());
-    average.Begin(true_first, Eigen::Isometry3d::Identity(), {});
+    FrameAverage average;
+    average.Begin(true_first, SmallCamera(), Eigen::Isometry3d::Identity(), {});
     for (const double step : {0.3, 0.6, 0.9}) {
         const Eigen::Isometry3d pose = MovedPose(0.025 * step, 0.04 * step);
         ASSERT_TRUE(average.Add(FrameFrom(pose), first.inverse() * pose, {}));
@@ -69,8 +69,8 @@ TEST(FrameAverage, HasLessNoise) {
     std::mt19937 random(3);
     Frame noisy = true_first;
     AddDepthNoise(random, noisy);
-    FrameAverage average(SmallCamera());
-    average.Begin(noisy, Eigen::Isometry3d::Identity(), {});
+    FrameAverage average;
+    average.Begin(noisy, SmallCamera(), Eigen::Isometry3d::Identity(), {});
     for (int i = 1; i < 5; ++i) {
         const Eigen::Isometry3d pose = MovedPose(0.004 * i, 0.003 * i);
         Frame frame = FrameFrom(pose);
@@ -85,8 +85,8 @@ TEST(FrameAverage, WeighsAsMuchAsItsFrames) {
     Integrator::View view;
     view.weight = 0.5f;
     view.colour_weight = 0.25f;
-    FrameAverage average(SmallCamera());
-    average.Begin(FrameFrom(MovedPose(0, 0)), Eigen::Isometry3d::Identity(), view);
+    FrameAverage average;
+    average.Begin(FrameFrom(MovedPose(0, 0)), SmallCamera(), Eigen::Isometry3d::Identity(), view);
     view.weight = 1;
     ASSERT_TRUE(average.Add(FrameFrom(MovedPose(0, 0)), Eigen::Isometry3d::Identity(), view));
     EXPECT_FLOAT_EQ(average.view().weight, 1.5f);
@@ -99,8 +99,9 @@ TEST(FrameAverage, OneColourIsNotAveragedWithARefusedOne) {
     Integrator::View good, refused;
     refused.colour_weight = 0;
     for (const bool good_first : {false, true}) {
-        FrameAverage average(SmallCamera());
-        average.Begin(frame, Eigen::Isometry3d::Identity(), good_first ? good : refused);
+        FrameAverage average;
+        average.Begin(frame, SmallCamera(), Eigen::Isometry3d::Identity(),
+                      good_first ? good : refused);
         EXPECT_FALSE(
             average.Add(frame, Eigen::Isometry3d::Identity(), good_first ? refused : good));
         EXPECT_TRUE(average.Add(frame, Eigen::Isometry3d::Identity(), good_first ? good : refused));
@@ -117,8 +118,8 @@ TEST(FrameAverage, LeavesOutWhatIsMissingOrAnotherSurface) {
     third.depth_m(40, 40) = 0;
     Frame missing = first;
     missing.depth_m(20, 20) = 0;
-    FrameAverage average(SmallCamera());
-    average.Begin(missing, Eigen::Isometry3d::Identity(), {});
+    FrameAverage average;
+    average.Begin(missing, SmallCamera(), Eigen::Isometry3d::Identity(), {});
     ASSERT_TRUE(average.Add(second, Eigen::Isometry3d::Identity(), {}));
     ASSERT_TRUE(average.Add(third, Eigen::Isometry3d::Identity(), {}));
     const DepthImage& mean = average.Take().depth_m;
@@ -130,9 +131,9 @@ TEST(FrameAverage, LeavesOutWhatIsMissingOrAnotherSurface) {
 TEST(FrameAverage, EndsWhenTheCameraHasMovedOrEnoughAreIn) {
     const Frame frame = FrameFrom(MovedPose(0, 0));
     const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
-    FrameAverage average(SmallCamera());
+    FrameAverage average;
     EXPECT_FALSE(average.Add(frame, here, {}));  // no first frame
-    average.Begin(frame, here, {});
+    average.Begin(frame, SmallCamera(), here, {});
     EXPECT_FALSE(average.Add(frame, Eigen::Isometry3d(Eigen::Translation3d(0.06, 0, 0)), {}));
     EXPECT_FALSE(average.Add(
         frame, Eigen::Isometry3d(Eigen::AngleAxisd(0.09, Eigen::Vector3d::UnitY())), {}));

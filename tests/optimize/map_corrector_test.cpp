@@ -24,8 +24,8 @@ TEST(MapCorrector, WantsAMapThatIsOffByMoreThanItsBand) {
         memory.keyframes[0].T_world_camera = Eigen::Translation3d(off_m, 0, 0);
         memory.corrected = true;
         graph.Resume(std::move(memory));
-        FrameKeeper frames(settings.camera, 1 << 20, 5000, false);
-        const MapCorrector corrector(settings, graph, frames, std::nullopt, {});
+        FrameStore store(1 << 20, 5000);
+        const MapCorrector corrector(settings, graph, store, std::nullopt, {});
         EXPECT_EQ(corrector.WantsMap(), wants) << per_m << ", " << off_m;
     }
 }

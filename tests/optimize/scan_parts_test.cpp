@@ -121,8 +121,8 @@ TEST(MapCorrector, KeepsDoubtfulBlocksInMindWhenPartsAreLeftOut) {
     graph.MarkCorrected();
     graph.SetPoses(
         {PartStart(0), Eigen::Isometry3d(Eigen::Translation3d(0.2, 0, 0)), PartStart(1)});
-    FrameKeeper frames(settings.camera, 1 << 20, 5000, true);
-    MapCorrector corrector(settings, graph, frames, std::nullopt, {});
+    FrameStore store(1 << 20, 5000);
+    MapCorrector corrector(settings, graph, store, std::nullopt, {});
     corrector.Move(CopyLayers(map, BlockMap::Layers::kAll));
     ASSERT_TRUE(corrector.moves_copy());
     std::unique_ptr<MapRebuild> made;
