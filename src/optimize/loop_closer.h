@@ -129,7 +129,10 @@ class LoopCloser {
     bool outdated() const { return corrector_.busy() || swapped_; }
     std::optional<Correction> StepCorrection(int frames);
     std::optional<Correction> MakeAll();
+    std::optional<Correction> FuseAll();
+    std::optional<Correction> CatchUp(const BlockMap* in_use);
     bool Calibrate(std::string& note);
+    bool LeavePartsOut(std::string& note);
 
     LoopConfig config_;
     FieldSettings settings_;

@@ -66,9 +66,17 @@ bool LoopCloser::MoveAlike(int a, int b) const {
            settings_.map.voxel_size_m / 2;
 }
 
-// All of what was begun.
+// All of what was begun. Nothing if it cannot be made.
 std::optional<LoopCloser::Correction> LoopCloser::MakeAll() {
-    return StepCorrection(std::numeric_limits<int>::max());
+    while (corrector_.busy())
+        if (std::optional<Correction> made = StepCorrection(std::numeric_limits<int>::max()))
+            return made;
+    return std::nullopt;
+}
+
+// A map of all stored frames, whatever the one in use is like.
+std::optional<LoopCloser::Correction> LoopCloser::FuseAll() {
+    return corrector_.Begin(kAnyDifference_m) ? MakeAll() : std::nullopt;
 }
 
 // Returns true if the scan shows another calibration, with which the map is to be made again.
@@ -83,33 +91,44 @@ bool LoopCloser::Calibrate(std::string& note) {
     return found.ok() && found.value().shown;
 }
 
+// Returns true if the map in use has parts of the scan that nothing joins with the rest.
+bool LoopCloser::LeavePartsOut(std::string& note) {
+    const std::string left_out = graph_.KeepLargestPart();
+    if (left_out.empty()) return false;
+    note += (note.empty() ? "" : "; ") + left_out;
+    return true;
+}
+
 std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
                                                          const BlockMap* in_use) {
-    std::optional<Correction> last;
     store_.StoreLatest();
     if (seeking_ && graph_.corrected())
         static_cast<void>(graph_.OptimiseAgain());  // else as it was
     const bool calibrated = Calibrate(note);
-    if (calibrated) in_use = nullptr;
-    const std::string left_out = graph_.KeepLargestPart();
-    if (!left_out.empty()) note += (note.empty() ? "" : "; ") + left_out;
-    if (calibrated || !left_out.empty()) {
-        corrector_.Discard();
-        if (in_use && !corrector_.labels() && corrector_.MayMove(*in_use))
-            corrector_.BeginParts(*in_use);
-        else
-            in_use = nullptr;
-        if (corrector_.Begin(kAnyDifference_m)) last = MakeAll();
-        if (in_use) in_use = last->map.get();
-    }
-    if (!graph_.corrected()) return last;
-    if (in_use && (graph_.PartsMove() || !corrector_.MayMove(*in_use))) in_use = nullptr;
+    const bool parts_left_out = LeavePartsOut(note);
+    if (!graph_.corrected()) return std::nullopt;
+    if (!calibrated && !parts_left_out) return CatchUp(in_use);
+    corrector_.Discard();
+    // Parts can be taken out of the map in use. Another calibration changes all of it.
+    if (calibrated || !in_use || corrector_.labels() || !corrector_.MayMove(*in_use))
+        return FuseAll();
+    corrector_.BeginParts(*in_use);
+    std::optional<Correction> last = MakeAll();
+    Append(CatchUp(last->map.get()), last);
+    return last;
+}
+
+// The map of the graph as it is now. The map in use is moved, if it is given and can be; else what
+// was begun is made, or all is fused again. Nothing if the map in use is right.
+std::optional<LoopCloser::Correction> LoopCloser::CatchUp(const BlockMap* in_use) {
     const double tolerance_m = settings_.map.voxel_size_m / 2;
+    if (in_use && (graph_.PartsMove() || !corrector_.MayMove(*in_use))) in_use = nullptr;
     // To move the map in use takes less time than what is left.
     if (in_use)
         corrector_.Discard();
     else
         corrector_.DiscardOutdated(tolerance_m);
+    std::optional<Correction> last;
     while (corrector_.Begin(corrector_.doubtful() ? kAnyDifference_m : tolerance_m,
                             std::exchange(in_use, nullptr)))
         Append(MakeAll(), last);
@@ -125,8 +144,7 @@ Result<LoopCloser::Correction> LoopCloser::MakeAgain() {
         if (last_round) break;
     }
     static_cast<void>(graph_.KeepLargestPart());
-    std::optional<Correction> made;
-    if (corrector_.Begin(kAnyDifference_m)) made = MakeAll();
+    std::optional<Correction> made = FuseAll();
     if (!made) return Status::Error(TakeError());
     return std::move(*made);
 }

@@ -59,16 +59,19 @@ class MapRebuild {
         return T_world_keyframe_[static_cast<std::size_t>(stored.keyframe)] *
                stored.T_keyframe_camera;
     }
+    void UseMoved(WarpedMap moved);
+    Result<bool> FuseNext(FrameStore& store, int frames);
+    bool Wants(const StoredFrame& stored) const;
     Status Fuse(const StoredFrame& stored);
-    void BeginFusion(WarpedMap moved);
-    void AddToTheMoved();
+    void AddFusedAgain();
 
-    std::unique_ptr<BlockMap> map_;
-    bool made_ = false;               // given to the constructor
+    std::unique_ptr<BlockMap> map_;   // what is made
+    bool whole_ = false;              // nothing has to be fused
     std::unique_ptr<BlockMap> copy_;  // see Keep
-    std::optional<MapWarp> warp_;     // moves the map in use; empty if it is moved
-    // Then what is not fused again, while `map_` has only the blocks that are; else null.
-    std::unique_ptr<BlockMap> moved_, rough_;  // `rough_`: WarpedMap
+    std::optional<MapWarp> warp_;     // moves the map in use; empty once it is moved
+    // Of a map that was moved: the blocks that are fused again, and `rough` of WarpedMap. Else
+    // null.
+    std::unique_ptr<BlockMap> again_, rough_;
     std::vector<BlockCoord> doubtful_;
     std::vector<bool> left_out_;
     Integrator integrator_;
