@@ -6,7 +6,6 @@
 #include "core/depth_noise.h"
 #include "optimize/bilinear.h"
 #include "optimize/camera_view.h"
-#include "optimize/colour_time.h"
 
 namespace tessera {
 namespace {
@@ -46,6 +45,20 @@ Cell CellAt(const DepthImage& depth_m, const Image<float>& intensity, int n, int
         for (int i = n * x; i < n * x + n; ++i)
             cell.Add(depth_m(i, j), intensity.empty() ? -1.0f : intensity(i, j));
     return cell;
+}
+
+// The pixel of the colour image that shows what `pixel` of the depth image measured at z, metres;
+// 0: unknown, taken as far away. Colour and depth have their own time stamps, and a rolling shutter
+// reads the rows one after another. To first order in time; the row's time is that of `pixel`.
+Eigen::Vector2d ColourPixel(const PinholeCamera& camera, const FrameMotion& motion,
+                            const Eigen::Vector2d& pixel, double z) {
+    const double time_s =
+        motion.ColourTime(pixel.y(), camera.height) - motion.DepthTime(pixel.y(), camera.height);
+    const Eigen::Vector3d p = camera.Unproject(pixel.x(), pixel.y(), z > 0 ? z : 1.0);
+    Eigen::Vector3d velocity = motion.twist_per_s.head<3>().cross(p);
+    if (z > 0) velocity += motion.twist_per_s.tail<3>();
+    const Eigen::Vector3d moved = p - time_s * velocity;
+    return moved.z() > 0 ? camera.Project(moved) : pixel;
 }
 
 // Adds the intensities of the cell's surface. Returns false if it is not in the colour image.
