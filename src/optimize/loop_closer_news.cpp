@@ -28,11 +28,10 @@ std::string LoopCloser::SeekLoop(const Keyframe& fresh, const PreparedFrame& pre
 // than two frames.
 std::string LoopCloser::CloseLoop(const Keyframe& old, const Keyframe& fresh,
                                   const FieldVerdict& verdict) {
-    constexpr double kSigma_m = 0.01, kSigma_rad = 0.005;
     const Eigen::Isometry3d T_old_new =
         verdict.closed_before ? Normalised(old.T_map_camera.inverse() * fresh.T_map_camera)
                               : verdict.T_old_new;
-    graph_.AddLoop({old.id, fresh.id, T_old_new, RootInformation(kSigma_rad, kSigma_m), true});
+    graph_.AddLoop(old.id, fresh.id, T_old_new);
     const Drift drift = DriftOf(old, fresh, T_old_new, config_.max_drift);
     if (drift.off_m < config_.min_correction_m && drift.off_rad < config_.min_correction_m)
         return {};

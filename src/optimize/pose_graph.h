@@ -27,6 +27,12 @@ inline Matrix6d RootInformation(double sigma_rad, double sigma_m) {
     return inverse.asDiagonal();
 }
 
+// Of two keyframes that were found to show one place.
+inline PoseEdge LoopEdge(int from, int to, const Eigen::Isometry3d& T_from_to) {
+    constexpr double kSigma_m = 0.01, kSigma_rad = 0.005;
+    return {from, to, T_from_to, RootInformation(kSigma_rad, kSigma_m), true};
+}
+
 // True if this build includes Ceres.
 bool PoseGraphAvailable();
 

@@ -44,8 +44,8 @@ void ScanGraph::Link(int from, int to, const Eigen::Isometry3d& T_map_to, bool d
                       RootInformation(trust * sigma_rad, trust * sigma_m), false});
 }
 
-void ScanGraph::AddLoop(const PoseEdge& edge) {
-    edges_.push_back(edge);
+void ScanGraph::AddLoop(int from, int to, const Eigen::Isometry3d& T_from_to) {
+    edges_.push_back(LoopEdge(from, to, T_from_to));
     ++loops_;
 }
 
@@ -141,7 +141,8 @@ Status ScanGraph::Join(std::span<const int> parts, int b, const JointPose& joint
     for (int id = 0; id < keyframes_.size(); ++id)
         if (parts[static_cast<std::size_t>(id)] == b)
             keyframes_[id].T_world_camera = Normalised(joint.T_a_b * keyframes_[id].T_world_camera);
-    for (const CommonPlace& place : joint.places) edges_.push_back(EdgeAt(place));
+    for (const CommonPlace& place : joint.places)
+        edges_.push_back(LoopEdge(place.in_a, place.in_b, place.T_in_a_in_b));
     ++loops_;
     corrected_ = moved_ = true;
     return OptimiseAgain();

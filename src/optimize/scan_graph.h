@@ -57,7 +57,7 @@ class ScanGraph {
     // Constraint from tracking between two keyframes of the map, the second at T_map_to.
     // `doubtful`: tracking may have jumped.
     void Link(int from, int to, const Eigen::Isometry3d& T_map_to, bool doubtful);
-    void AddLoop(const PoseEdge& edge);
+    void AddLoop(int from, int to, const Eigen::Isometry3d& T_from_to);
     void CountLoop() { ++loops_; }
     // Corrected poses of all frames, in order, without those of parts that are left out.
     std::vector<StampedPose> Path() const;

@@ -86,9 +86,4 @@ std::optional<JointPose> AgreeOnPose(std::span<const CommonPlace> places,
     return std::nullopt;
 }
 
-PoseEdge EdgeAt(const CommonPlace& place) {
-    constexpr double kSigma_m = 0.01, kSigma_rad = 0.005;
-    return {place.in_a, place.in_b, place.T_in_a_in_b, RootInformation(kSigma_rad, kSigma_m), true};
-}
-
 }  // namespace tessera

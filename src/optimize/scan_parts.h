@@ -65,7 +65,4 @@ struct JointPose {
 std::optional<JointPose> AgreeOnPose(std::span<const CommonPlace> places,
                                      std::span<const Keyframe> keyframes_of_b);
 
-// What a place says about the two keyframes.
-PoseEdge EdgeAt(const CommonPlace& place);
-
 }  // namespace tessera

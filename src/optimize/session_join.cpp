@@ -87,10 +87,8 @@ void AppendSession(LoopCloser::Memory b, const JointPose& pose, LoopCloser::Memo
         edge.to += first;
         a.graph.edges.push_back(std::move(edge));
     }
-    for (const CommonPlace& place : pose.places) {
-        a.graph.edges.push_back(EdgeAt(place));
-        a.graph.edges.back().to += first;
-    }
+    for (const CommonPlace& place : pose.places)
+        a.graph.edges.push_back(LoopEdge(place.in_a, place.in_b + first, place.T_in_a_in_b));
     for (PathPose& passage : b.graph.passages) {
         passage.keyframe += first;
         a.graph.passages.push_back(passage);
