@@ -67,31 +67,30 @@ void LoopCloser::MakeMissingViews() {
 
 // Takes note of a tracked camera. Where a part begins, or the camera was found in another one, it
 // has not moved from the last pose to this one. A frame that was tracked later than the camera was
-// found, but not there, shows that it came back by itself.
-void LoopCloser::Follow(double stamp_s, const Eigen::Isometry3d& T_map_camera) {
+// found, but not there, shows that it came back by itself. Returns where the camera was expected,
+// if tracking may have jumped.
+std::optional<Eigen::Isometry3d> LoopCloser::Follow(double stamp_s,
+                                                    const Eigen::Isometry3d& T_map_camera,
+                                                    bool fused) {
     if (!link_ && stamp_s > seen_at_s_) seen_at_.reset();
     Keyframes& keyframes = graph_.keyframes();
-    if (!keyframes.empty() && !InOnePart(keyframes.T_map_last(), T_map_camera)) {
-        keyframes.Jump();
-        jumps_.Reset();
-        DiscardCopy();
-    }
+    if (!keyframes.empty() && !InOnePart(keyframes.T_map_last(), T_map_camera)) Interrupt();
     keyframes.Follow(T_map_camera);
+    fused_since_copy_ |= fused;
+    return jumps_.Follow(stamp_s, T_map_camera);
 }
 
 std::string LoopCloser::Add(const Frame& frame, const PreparedFrame& prepared,
                             const TrackResult& track, const Integrator::View& view, bool fused) {
     const Eigen::Isometry3d& T_map_camera = track.T_world_camera;
     Keyframes& keyframes = graph_.keyframes();
-    Follow(frame.stamp_s, T_map_camera);
-    fused_since_copy_ |= fused;
+    const std::optional<Eigen::Isometry3d> expected = Follow(frame.stamp_s, T_map_camera, fused);
     // A corrected map may hold what this one does. It was left out of frames with a lower limit.
     settings_.preparation.max_depth_m =
         std::max(settings_.preparation.max_depth_m, prepared.limit_m);
     // Where the map holds a place twice, tracking may jump from one surface to the other. A new
     // keyframe starts there, so that the frames on both sides can move apart. If the map is known
     // to be like this, the keyframe is linked at the pose where the camera was expected.
-    const std::optional<Eigen::Isometry3d> expected = jumps_.Follow(frame.stamp_s, T_map_camera);
     const bool jumped = expected && !link_;
     const bool keyframe = fused && (link_ || jumped || keyframes.Wanted(prepared, T_map_camera));
     if (keyframe)
@@ -146,9 +145,7 @@ std::optional<int> LoopCloser::LinkedTo(const Eigen::Isometry3d& T_map_camera) c
 }
 
 void LoopCloser::Pass(double stamp_s, const Eigen::Isometry3d& T_map_camera, bool fused) {
-    Follow(stamp_s, T_map_camera);
-    fused_since_copy_ |= fused;
-    jumps_.Follow(stamp_s, T_map_camera);
+    Follow(stamp_s, T_map_camera, fused);
     graph_.AddPassage(stamp_s, T_map_camera, fused);
 }
 
@@ -180,6 +177,11 @@ std::optional<FoundCamera> LoopCloser::Relocalise(
 
 void LoopCloser::LinkNextTo(int keyframe) {
     link_ = keyframe;
+    Interrupt();
+}
+
+// The motion between the last frame and the next is not known.
+void LoopCloser::Interrupt() {
     graph_.keyframes().Jump();
     jumps_.Reset();
     DiscardCopy();

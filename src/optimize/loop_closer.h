@@ -113,7 +113,9 @@ class LoopCloser {
   private:
     void AddPlaces();
     void MakeMissingViews();
-    void Follow(double stamp_s, const Eigen::Isometry3d& T_map_camera);
+    std::optional<Eigen::Isometry3d> Follow(double stamp_s, const Eigen::Isometry3d& T_map_camera,
+                                            bool fused);
+    void Interrupt();
     void AddKeyframe(const Frame& frame, const PreparedFrame& prepared, const TrackResult& track,
                      const FrameMotion& motion, const Eigen::Isometry3d& T_map_expected,
                      bool doubtful);
