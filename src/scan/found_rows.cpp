@@ -22,7 +22,7 @@ std::vector<std::string> FoundRows::Index() {
     ScanRow row;
     ScanSeal seal;
     if (!Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kSeal), row) ||
-        !ScanSeal::Decode(row.data, seal))
+        !seal.Decode(row.data))
         return {"the number of rows per table"};
     std::vector<std::string> lost;
     for (const ScanTable table :

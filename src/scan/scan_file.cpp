@@ -219,7 +219,7 @@ Status ScanFile::CheckHeader() {
 Status ScanFile::LoadSeal() {
     Result<std::vector<std::uint8_t>> bytes = ReadOne(ScanTable::kState, kSealKey);
     if (!bytes.ok()) return bytes.status();
-    if (!ScanSeal::Decode(bytes.value(), seal_)) return DamagedScan(path(), "no seal");
+    if (!seal_.Decode(bytes.value())) return DamagedScan(path(), "no seal");
     return Status::Ok();
 }
 

@@ -27,7 +27,7 @@ struct ScanSeal {
     std::array<Table, kScanTableCount> tables;
 
     std::vector<std::uint8_t> Encode() const;
-    static bool Decode(std::span<const std::uint8_t> bytes, ScanSeal& seal);
+    bool Decode(std::span<const std::uint8_t> bytes);
 };
 
 // The error for a file with damaged content. It suggests `tessera scan repair`.

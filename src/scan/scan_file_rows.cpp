@@ -6,28 +6,25 @@
 
 namespace tessera {
 
+namespace {
+
+// In the order of their bytes, as in scan_records.cpp. The tables follow the seal.
+auto SealFields(auto& seal) { return std::tie(seal.checkpoint, seal.finished); }
+
+auto SealedFields(auto& table) { return std::tie(table.epoch, table.rows, table.checksums); }
+
+}  // namespace
+
 std::vector<std::uint8_t> ScanSeal::Encode() const {
-    std::vector<std::uint8_t> bytes;
-    StateWriter state(bytes);
-    state.Put(checkpoint);
-    state.Put(finished);
-    for (const Table& table : tables) {
-        state.Put(table.epoch);
-        state.Put(table.rows);
-        state.Put(table.checksums);
-    }
+    std::vector<std::uint8_t> bytes = Encoded(SealFields(*this));
+    for (const Table& table : tables) StateWriter(bytes).Put(SealedFields(table));
     return bytes;
 }
 
-bool ScanSeal::Decode(std::span<const std::uint8_t> bytes, ScanSeal& seal) {
+bool ScanSeal::Decode(std::span<const std::uint8_t> bytes) {
     StateReader state(bytes);
-    state.Get(seal.checkpoint);
-    state.Get(seal.finished);
-    for (Table& table : seal.tables) {
-        state.Get(table.epoch);
-        state.Get(table.rows);
-        state.Get(table.checksums);
-    }
+    state.Get(SealFields(*this));
+    for (Table& table : tables) state.Get(SealedFields(table));
     return state.at_end();
 }
 
