@@ -10,10 +10,6 @@
 namespace tessera {
 namespace {
 
-Result<Bytes> ReadState(ScanFile& file, ScanStateKey key) {
-    return file.ReadOne(ScanTable::kState, static_cast<std::int64_t>(key));
-}
-
 // Block numbers start at 1 and define the allocation order.
 Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
     const auto count =
@@ -103,15 +99,15 @@ Status ReadStates(ScanFile& file, ScanContent& content) {
     for (auto& [key, bytes] :
          {std::pair<ScanStateKey, Bytes*>{ScanStateKey::kTracking, &content.tracking},
           {ScanStateKey::kLabels, &content.labels}}) {
-        Result<Bytes> read = ReadState(file, key);
+        Result<Bytes> read = file.ReadOne(key);
         if (!read.ok()) return read.status();
         *bytes = std::move(read.value());
     }
-    const Result<Bytes> source = ReadState(file, ScanStateKey::kSource);
+    const Result<Bytes> source = file.ReadOne(ScanStateKey::kSource);
     if (!source.ok()) return source.status();
     content.source_name.assign(source.value().begin(), source.value().end());
     if (content.source_name.empty()) content.source_name = content.meta.source_name;
-    const Result<Bytes> loops = ReadState(file, ScanStateKey::kLoops);
+    const Result<Bytes> loops = file.ReadOne(ScanStateKey::kLoops);
     if (!loops.ok()) return loops.status();
     if (!loops.value().empty() && !content.loops.Decode(loops.value()))
         return DamagedScan(file.path(), "loops");
@@ -220,7 +216,7 @@ Result<ScanContent> ReadScan(ScanFile& file, const ScanParts& parts) {
     Result<ScanMeta> meta = ReadMeta(file);
     if (!meta.ok()) return meta.status();
     content.meta = std::move(meta.value());
-    const Result<Bytes> progress = ReadState(file, ScanStateKey::kProgress);
+    const Result<Bytes> progress = file.ReadOne(ScanStateKey::kProgress);
     if (!progress.ok()) return progress.status();
     if (!progress.value().empty() && !content.progress.Decode(progress.value()))
         return DamagedScan(file.path(), "progress");

@@ -98,13 +98,14 @@ Status ScanFile::PrepareToWrite() {
     return Status::Ok();
 }
 
-Status ScanFile::Begin() {
+void ScanFile::Begin() {
     next_ = seal_;
     ++next_.checkpoint;
-    return database_->Execute("BEGIN IMMEDIATE");
+    error_ = database_->Execute("BEGIN IMMEDIATE");
 }
 
-Status ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data) {
+void ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data) {
+    if (!error_.ok()) return;
     Statements& statements = statements_[IndexOf(table)];
     ScanSeal::Table& sealed = next_.tables[IndexOf(table)];
     const ScanRow row{table, key, sealed.epoch, next_.checkpoint, data};
@@ -116,7 +117,8 @@ Status ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uin
         sealed.checksums -= static_cast<std::uint64_t>(statements.find.Number(0));
     }
     statements.find.Reset();
-    if (found != kStepRow && found != kStepDone) return Abandon("cannot be written");
+    if (found != kStepRow && found != kStepDone)
+        return Abandon(database_->Error("cannot be written"));
     const std::uint64_t checksum = ChecksumOf(row);
     if (counted) {
         ++sealed.rows;
@@ -127,42 +129,39 @@ Status ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uin
     statements.replace.Bind(3, row.checkpoint);
     statements.replace.Bind(4, data);
     statements.replace.Bind(5, static_cast<std::int64_t>(checksum));
-    const int step = statements.replace.Step();
-    if (step != kStepDone) return Abandon("cannot be written");
+    if (statements.replace.Step() != kStepDone)
+        return Abandon(database_->Error("cannot be written"));
     statements.replace.Reset();
-    return Status::Ok();
 }
 
-Status ScanFile::Clear(ScanTable table) {
+void ScanFile::Clear(ScanTable table) {
+    if (!error_.ok()) return;
     ScanSeal::Table& sealed = next_.tables[IndexOf(table)];
     sealed = {sealed.epoch + 1, 0, 0};
-    if (Status status = database_->Execute(fmt::format("DELETE FROM {}", ToString(table)));
-        !status.ok())
-        return Abandon("cannot be written");
-    return Status::Ok();
+    if (!database_->Execute(fmt::format("DELETE FROM {}", ToString(table))).ok())
+        Abandon(database_->Error("cannot be written"));
 }
 
 Status ScanFile::Commit(bool finished) {
     next_.finished = finished;
-    const std::vector<std::uint8_t> seal = next_.Encode();
-    if (Status status = Put(ScanTable::kState, kSealKey, seal); !status.ok()) return status;
+    Put(ScanStateKey::kSeal, next_.Encode());
+    if (!error_.ok()) return error_;
     // Older programs must not read what this one writes.
     const std::string sql = version_ < kScanVersion
                                 ? fmt::format("PRAGMA user_version={}; COMMIT", kScanVersion)
                                 : "COMMIT";
-    if (Status status = database_->Execute(sql); !status.ok()) return Abandon("cannot be written");
+    if (!database_->Execute(sql).ok()) {
+        Abandon(database_->Error("cannot be written"));
+        return error_;
+    }
     version_ = kScanVersion;
     seal_ = next_;
     return Status::Ok();
 }
 
-Status ScanFile::Abandon(const std::string& doing) {
-    const Status error = database_->Error(doing);
-    Rollback();
-    return error;
-}
-
-void ScanFile::Rollback() {
+void ScanFile::Abandon(const Status& error) {
+    if (!error_.ok()) return;
+    error_ = error;
     for (Statements& statements : statements_) {
         statements.find.Reset();
         statements.replace.Reset();

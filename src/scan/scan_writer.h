@@ -48,8 +48,7 @@ class ScanWriter {
     const ScanFile& file() const { return *file_; }
 
   private:
-    Status PutRows(const ScanCheckpoint& checkpoint);
-    Status PutState(ScanStateKey key, const Bytes& bytes);
+    void PutRows(const ScanCheckpoint& checkpoint);
     Result<Bytes> Compress(const Frame& frame);
 
     std::unique_ptr<ScanFile> file_;
