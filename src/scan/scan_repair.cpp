@@ -24,12 +24,12 @@ class Repair {
         report_.lost = found_.Index();
         if (!FindMeta())
             return Status::Error(path_ + ": nothing can be recovered: the scan's metadata is lost");
-        if (rows(ScanTable::kBlocks).empty() && rows(ScanTable::kPath).empty())
+        if (found_.rows(ScanTable::kBlocks).empty() && found_.rows(ScanTable::kPath).empty())
             return Status::Error(path_ +
                                  ": nothing can be recovered: no block and no pose is intact");
         JudgeLoops();
         ScanRow labels;
-        labelled_ = Load(ScanStateKey::kLabels, labels) && !labels.data.empty();
+        labelled_ = found_.Load(ScanStateKey::kLabels, labels) && !labels.data.empty();
         Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(out_, meta_.Encode());
         if (!file.ok()) return file.status();
         file_ = std::move(file.value());
@@ -45,32 +45,25 @@ class Repair {
     }
 
   private:
-    const ScanRows& rows(ScanTable table) const { return found_.rows(table); }
-    bool Load(ScanTable table, std::int64_t key, ScanRow& row) {
-        return found_.Load(table, key, row);
-    }
-    bool Load(ScanStateKey key, ScanRow& row) {
-        return Load(ScanTable::kState, static_cast<std::int64_t>(key), row);
-    }
-
     bool FindMeta() {
         ScanRow row;
-        return (Load(ScanTable::kMeta, 0, row) && meta_.Decode(row.data)) ||
-               (Load(ScanStateKey::kMetaCopy, row) && meta_.Decode(row.data));
+        return (found_.Load(ScanTable::kMeta, 0, row) && meta_.Decode(row.data)) ||
+               (found_.Load(ScanStateKey::kMetaCopy, row) && meta_.Decode(row.data));
     }
 
     // Loop closure can continue only with all keyframes. Otherwise the path is written without
     // them.
     void JudgeLoops() {
         ScanRow row;
-        const std::size_t count = rows(ScanTable::kPoses).size();
-        bool whole = meta_.loops && Load(ScanStateKey::kLoops, row) && loops_.Decode(row.data) &&
-                     rows(ScanTable::kKeyframes).size() == count;
+        const std::size_t count = found_.rows(ScanTable::kPoses).size();
+        bool whole = meta_.loops && found_.Load(ScanStateKey::kLoops, row) &&
+                     loops_.Decode(row.data) && found_.rows(ScanTable::kKeyframes).size() == count;
         Keyframe keyframe;
-        for (const auto& [key, place] : rows(ScanTable::kPoses)) {
+        for (const auto& [key, place] : found_.rows(ScanTable::kPoses)) {
             KeyframePoses poses;
-            if (Load(ScanTable::kPoses, key, row) && poses.Decode(row.data)) poses_[key] = poses;
-            whole = whole && Load(ScanTable::kKeyframes, key, row) &&
+            if (found_.Load(ScanTable::kPoses, key, row) && poses.Decode(row.data))
+                poses_[key] = poses;
+            whole = whole && found_.Load(ScanTable::kKeyframes, key, row) &&
                     DecodeKeyframe(row.data, meta_.camera, keyframe) &&
                     std::ranges::all_of(keyframe.overlaps,
                                         [id = key](const Overlap& o) { return o.with < id; });
@@ -90,8 +83,9 @@ class Repair {
     void CopyBlocks() {
         std::vector<std::pair<BlockId, std::int64_t>> order;
         ScanRow row;
-        for (const auto& [key, place] : rows(ScanTable::kBlocks))
-            if (Load(ScanTable::kBlocks, key, row) && BlockCodec::NumberOf(row.data) && key >= 0)
+        for (const auto& [key, place] : found_.rows(ScanTable::kBlocks))
+            if (found_.Load(ScanTable::kBlocks, key, row) && BlockCodec::NumberOf(row.data) &&
+                key >= 0)
                 order.emplace_back(*BlockCodec::NumberOf(row.data), key);
         std::ranges::sort(order);
         BlockId next = 1;
@@ -99,7 +93,7 @@ class Repair {
         BlockCopies block;
         bool unlabelled = false;
         for (const auto& [id, key] : order) {
-            Load(ScanTable::kBlocks, key, row);
+            found_.Load(ScanTable::kBlocks, key, row);
             Bytes data(row.data.begin(), row.data.end());
             block.Clear();
             if (!labelled_ && codec.Decode(data, CoordOfKey(key), block) && !block.labels.empty()) {
@@ -118,9 +112,9 @@ class Repair {
     void CopyPath() {
         ScanRow row;
         std::int64_t unplaced = 0;
-        for (const auto& [key, place] : rows(ScanTable::kPath)) {
+        for (const auto& [key, place] : found_.rows(ScanTable::kPath)) {
             PathRecord record;
-            if (!Load(ScanTable::kPath, key, row) || !record.Decode(row.data)) continue;
+            if (!found_.Load(ScanTable::kPath, key, row) || !record.Decode(row.data)) continue;
             if (record.keyframe >= 0 && !meta_.loops) {
                 const auto poses = poses_.find(record.keyframe);
                 if (poses == poses_.end()) {
@@ -144,7 +138,7 @@ class Repair {
     void CopyKeyframes() {
         ScanRow row;
         for (const auto& [key, poses] : poses_) {
-            if (!Load(ScanTable::kKeyframes, key, row)) continue;
+            if (!found_.Load(ScanTable::kKeyframes, key, row)) continue;
             file_->Put(ScanTable::kKeyframes, key, row.data);
             file_->Put(ScanTable::kPoses, key, poses.Encode());
             ++report_.keyframes;
@@ -153,9 +147,9 @@ class Repair {
 
     void CopyFrames() {
         ScanRow row;
-        for (const auto& [key, place] : rows(ScanTable::kFrames)) {
+        for (const auto& [key, place] : found_.rows(ScanTable::kFrames)) {
             FrameRecord record;
-            if (!new_key_.contains(key) || !Load(ScanTable::kFrames, key, row) ||
+            if (!new_key_.contains(key) || !found_.Load(ScanTable::kFrames, key, row) ||
                 !record.Decode(row.data))
                 continue;
             if (!meta_.loops) record.in_store = false;
@@ -171,7 +165,7 @@ class Repair {
     void CopyState() {
         ScanRow row;
         ScanProgress progress;
-        if (!Load(ScanStateKey::kProgress, row) || !progress.Decode(row.data)) {
+        if (!found_.Load(ScanStateKey::kProgress, row) || !progress.Decode(row.data)) {
             report_.lost.push_back("the progress record");
             progress = {};
             progress.fused_frames =
@@ -184,14 +178,14 @@ class Repair {
         progress.frames = report_.path;
         progress.labels = labelled_;
         // Then the last index is of another source than the first session's.
-        if (began_again_ && !Load(ScanStateKey::kSource, row)) {
+        if (began_again_ && !found_.Load(ScanStateKey::kSource, row)) {
             report_.lost.push_back("the name of the last session's source");
             progress.last_index = -1;
         }
         file_->Put(ScanStateKey::kProgress, progress.Encode());
         for (const ScanStateKey key :
              {ScanStateKey::kTracking, ScanStateKey::kLabels, ScanStateKey::kSource})
-            if (Load(key, row)) {
+            if (found_.Load(key, row)) {
                 file_->Put(key, row.data);
             } else if (key == ScanStateKey::kTracking) {
                 report_.lost.push_back("the tracking state at the end");
