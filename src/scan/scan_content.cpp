@@ -48,10 +48,13 @@ Status ReadMap(ScanFile& file, bool labels, ScanContent& content) {
             return Status::Error(fmt::format("{}: {} blocks do not fit in this machine's memory",
                                              file.path(), order.value().size()));
     BlockCodec codec;
+    BlockCopies block;
     return file.Read(ScanTable::kBlocks, [&](const ScanRow& row) {
         const BlockId id = map.Find(CoordOfKey(row.key));
-        if (id == kUnknownBlock || !codec.Decode(row.data, map, id))
+        block.Clear();
+        if (id == kUnknownBlock || !codec.Decode(row.key, row.data, block))
             return DamagedScan(file.path(), fmt::format("block {}", row.key));
+        block.Put(0, map, id);
         map.MarkChanged(id, std::max(1u, content.progress.fused_frames));
         return Status::Ok();
     });

@@ -9,6 +9,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/status.h"
@@ -32,6 +33,12 @@ struct ScanSeal {
 
 // The error for a file with damaged content. It suggests `tessera scan repair`.
 Status DamagedScan(const std::string& path, const std::string& why);
+
+// The statement that selects rows of a table; `which` says which ones, and in which order.
+std::string SelectRows(ScanTable table, const std::string& which);
+// Reads the row at which such a statement stands. Returns its checksum; nullopt if that is wrong.
+std::optional<std::uint64_t> ReadRow(const DatabaseStatement& statement, ScanTable table,
+                                     ScanRow& row);
 
 // Owner thread only. Errors name the file, what is wrong and what to do.
 class ScanFile {

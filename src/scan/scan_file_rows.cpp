@@ -28,6 +28,20 @@ bool ScanSeal::Decode(std::span<const std::uint8_t> bytes) {
     return state.at_end();
 }
 
+std::string SelectRows(ScanTable table, const std::string& which) {
+    return fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} {}", ToString(table),
+                       which);
+}
+
+std::optional<std::uint64_t> ReadRow(const DatabaseStatement& statement, ScanTable table,
+                                     ScanRow& row) {
+    row = {table, statement.Number(0), statement.Number(1), statement.Number(2),
+           statement.Bytes(3)};
+    const std::uint64_t checksum = ChecksumOf(row);
+    return checksum == static_cast<std::uint64_t>(statement.Number(4)) ? std::optional(checksum)
+                                                                       : std::nullopt;
+}
+
 Status ScanFile::Failed(const std::string& doing) const {
     if (database_->damaged()) return DamagedScan(path(), doing);
     return database_->Error(doing + " cannot be read");
@@ -35,25 +49,22 @@ Status ScanFile::Failed(const std::string& doing) const {
 
 Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&)>& take) {
     const char* name = ToString(table);
-    Result<DatabaseStatement> select = database_->Prepare(
-        fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} ORDER BY key", name));
+    Result<DatabaseStatement> select = database_->Prepare(SelectRows(table, "ORDER BY key"));
     if (!select.ok()) return Failed(name);
     DatabaseStatement& rows = select.value();
     ScanSeal::Table found;
     const ScanSeal::Table& sealed = seal_.tables[IndexOf(table)];
-    std::int64_t last = 0;
-    bool first = true;
+    ScanRow row;
+    std::optional<std::int64_t> last;
     int step = rows.Step();
     for (; step == kStepRow; step = rows.Step()) {
-        const ScanRow row{table, rows.Number(0), rows.Number(1), rows.Number(2), rows.Bytes(3)};
-        const std::uint64_t checksum = ChecksumOf(row);
-        if (checksum != static_cast<std::uint64_t>(rows.Number(4)) || (!first && row.key <= last))
+        const std::optional<std::uint64_t> checksum = ReadRow(rows, table, row);
+        if (!checksum || (last && row.key <= *last))
             return DamagedScan(path(), fmt::format("{} {}", name, row.key));
-        first = false;
         last = row.key;
         if (table == ScanTable::kState && row.key == kSealKey) continue;
         ++found.rows;
-        found.checksums += checksum;
+        found.checksums += *checksum;
         if (row.epoch != sealed.epoch || row.checkpoint > seal_.checkpoint ||
             found.rows > sealed.rows)
             return DamagedScan(path(),
@@ -71,16 +82,15 @@ Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&
 
 Result<std::vector<std::uint8_t>> ScanFile::ReadOne(ScanTable table, std::int64_t key) {
     const char* name = ToString(table);
-    Result<DatabaseStatement> select = database_->Prepare(
-        fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} WHERE key = ?", name));
+    Result<DatabaseStatement> select = database_->Prepare(SelectRows(table, "WHERE key = ?"));
     if (!select.ok()) return Failed(name);
     DatabaseStatement& found = select.value();
     found.Bind(1, key);
     const int step = found.Step();
     if (step == kStepDone) return std::vector<std::uint8_t>();
     if (step != kStepRow) return Failed(name);
-    const ScanRow row{table, found.Number(0), found.Number(1), found.Number(2), found.Bytes(3)};
-    if (row.key != key || ChecksumOf(row) != static_cast<std::uint64_t>(found.Number(4)))
+    ScanRow row;
+    if (!ReadRow(found, table, row) || row.key != key)
         return DamagedScan(path(), fmt::format("{} {}", name, key));
     return std::vector<std::uint8_t>(row.data.begin(), row.data.end());
 }

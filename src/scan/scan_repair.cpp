@@ -96,7 +96,7 @@ class Repair {
             found_.Load(ScanTable::kBlocks, key, row);
             Bytes data(row.data.begin(), row.data.end());
             block.Clear();
-            if (!labelled_ && codec.Decode(data, CoordOfKey(key), block) && !block.labels.empty()) {
+            if (!labelled_ && codec.Decode(key, data, block) && !block.labels.empty()) {
                 unlabelled = true;
                 block.labels.clear();
                 data = codec.Encode(block, 0);

@@ -1,7 +1,5 @@
 #include "scan/scan_writer.h"
 
-#include <algorithm>
-
 #include "io/image_io.h"
 #include "io/jpeg_encoder.h"
 
@@ -40,12 +38,8 @@ void ScanWriter::PutRows(const ScanCheckpoint& c) {
         if (Status status = c.stored->ForEachRow(put); !status.ok()) return file_->Abandon(status);
     }
     // In key order, so that each page is touched once.
-    order_.clear();
-    for (std::size_t i = 0; i < c.blocks.size(); ++i)
-        order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
-    std::ranges::sort(order_);
-    for (const auto& [block_key, i] : order_)
-        file_->Put(ScanTable::kBlocks, block_key, codec_.Encode(c.blocks, i));
+    for (const auto& [key, i] : c.blocks.ByKey())
+        file_->Put(ScanTable::kBlocks, key, codec_.Encode(c.blocks, i));
     for (const auto& [number, record] : c.path)
         file_->Put(ScanTable::kPath, number, record.Encode());
     // Skips images that cannot be read or encoded. A map that is fused again lacks their frame, and

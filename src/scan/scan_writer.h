@@ -54,7 +54,6 @@ class ScanWriter {
     std::unique_ptr<ScanFile> file_;
     double depth_units_per_m_;
     BlockCodec codec_;
-    std::vector<std::pair<std::int64_t, std::size_t>> order_;
     PngEncoder png_;
     Image<std::uint16_t> raw_depth_;
 };
