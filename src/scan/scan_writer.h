@@ -45,7 +45,6 @@ class ScanWriter {
     // On error, the file stays valid as it was before, and nothing more should be written.
     Status Write(const ScanCheckpoint& checkpoint);
     void Close() { file_->Close(); }
-    const ScanFile& file() const { return *file_; }
 
   private:
     void PutRows(const ScanCheckpoint& checkpoint);
