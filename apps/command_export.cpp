@@ -18,7 +18,7 @@
 #include "io/mesh_writers.h"
 #include "io/trajectory.h"
 #include "run/scan_export.h"
-#include "scan/shown_scan.h"
+#include "scan/scan_content.h"
 
 namespace tessera {
 namespace {

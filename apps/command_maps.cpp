@@ -10,7 +10,7 @@
 #include "export/robot_maps.h"
 #include "run/scan_export.h"
 #include "run/scanned.h"
-#include "scan/shown_scan.h"
+#include "scan/scan_content.h"
 
 namespace tessera {
 namespace {

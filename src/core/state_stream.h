@@ -1,17 +1,20 @@
 // Serialises the state of an object, so that it can resume in another process. Each class with such
 // a state has
 //     void SaveState(StateWriter&) const;   bool LoadState(StateReader&);
+// A record that is only its fields can list them once, as a tuple of references (std::tie).
 // Little endian, as on every machine this program runs on. Formats that must outlive a program
 // version carry their own version number.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -47,9 +50,17 @@ class StateWriter {
     }
     void Put(const std::string& text) { PutArray(std::span<const char>(text)); }
     template <class T>
+    void Put(const std::vector<T>& values) {
+        PutArray(std::span<const T>(values));
+    }
+    template <class T>
     void Put(const std::optional<T>& value) {
         Put(value.has_value());
         if (value) Put(*value);
+    }
+    template <class... T>
+    void Put(const std::tuple<T&...>& fields) {
+        std::apply([this](const auto&... field) { (this->Put(field), ...); }, fields);
     }
 
   private:
@@ -108,6 +119,14 @@ class StateReader {
         if (!Get(there)) return false;
         return !there || Get(value.emplace());
     }
+    template <class T>
+    bool Get(std::vector<T>& values) {
+        return GetArray(values);
+    }
+    template <class... T>
+    bool Get(const std::tuple<T&...>& fields) {
+        return std::apply([this](auto&... field) { return (this->Get(field) && ...); }, fields);
+    }
 
     bool ok() const { return !failed_; }
     bool at_end() const { return ok() && at_ == bytes_.size(); }
@@ -128,5 +147,25 @@ class StateReader {
     std::size_t at_ = 0;
     bool failed_ = false;
 };
+
+// What a StateWriter makes of the fields.
+template <class... T>
+std::vector<std::uint8_t> Encoded(const std::tuple<T&...>& fields) {
+    std::vector<std::uint8_t> bytes;
+    StateWriter(bytes).Put(fields);
+    return bytes;
+}
+
+// Whether all floats and doubles among the fields are finite.
+template <class... T>
+bool AllFinite(const std::tuple<T&...>& fields) {
+    const auto finite = [](const auto& field) {
+        if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(field)>>)
+            return std::isfinite(field);
+        else
+            return true;
+    };
+    return std::apply([&](const auto&... field) { return (finite(field) && ...); }, fields);
+}
 
 }  // namespace tessera

@@ -9,7 +9,6 @@
 #include "core/path_length.h"
 #include "io/frame_recorder.h"
 #include "scan/scan_source.h"
-#include "scan/shown_scan.h"
 #include "semantics/label_mapper.h"
 #include "system/mapping_stage.h"
 #include "system/run_config.h"
@@ -165,7 +164,7 @@ Result<std::string> DescribeScan(const std::string& path) {
     ScanFile& file = *opened.value();
     Result<ScanContent> content = ReadScan(file, {});
     if (!content.ok()) return content.status();
-    RemoveHiddenBlocks(content.value());
+    content.value().RemoveHiddenBlocks();
     const ScanContent& scan = content.value();
     const PinholeCamera& c = scan.meta.camera;
     std::string text = fmt::format(

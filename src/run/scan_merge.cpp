@@ -65,7 +65,8 @@ Status CopyFrames(Part& part, const Offsets& by, ScanFile& out) {
         record.stored.ordinal += by.ordinal;
         const Result<Bytes> bytes = record.Encode();
         if (!bytes.ok()) return bytes.status();
-        return out.Put(ScanTable::kFrames, row.key + by.path, bytes.value());
+        out.Put(ScanTable::kFrames, row.key + by.path, bytes.value());
+        return out.error();
     });
 }
 
@@ -167,7 +168,7 @@ Result<std::int64_t> WriteJoint(const Merge& merge, const std::string& out) {
     meta.source_name += " + " + merge.b.content.meta.source_name;
     Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(partial.partial(), meta.Encode());
     if (!file.ok()) return file.status();
-    if (Status status = file.value()->Begin(); !status.ok()) return status;
+    file.value()->Begin();
     for (const auto& [part, by] : {std::pair{&merge.a, Offsets{}}, {&merge.b, merge.offsets}})
         if (Status status = CopyFrames(*part, by, *file.value()); !status.ok()) return status;
     if (Status status = file.value()->Commit(false); !status.ok()) return status;

@@ -6,7 +6,7 @@
 
 #include "io/mesh_io.h"
 #include "run/scan_export.h"
-#include "scan/shown_scan.h"
+#include "scan/scan_content.h"
 
 namespace tessera {
 

@@ -32,9 +32,9 @@ const std::uint8_t* FromPlanes(const std::uint8_t* in, T* values) {
     return in;
 }
 
-std::size_t ContentBytes(std::span<const std::uint8_t> row) {
-    if (row.size() <= kNumberBytes) return 0;
-    const std::uint64_t size = Compressor::ContentSize(row.subspan(kNumberBytes));
+std::size_t ContentBytes(std::span<const std::uint8_t> data) {
+    if (data.size() <= kNumberBytes) return 0;
+    const std::uint64_t size = Compressor::ContentSize(data.subspan(kNumberBytes));
     return size == kLayerBytes || size == kLayerBytes + kLabelBytes ? static_cast<std::size_t>(size)
                                                                     : 0;
 }
@@ -84,6 +84,13 @@ void BlockCopies::Put(std::size_t index, BlockMap& map, BlockId id) const {
         std::copy_n(labels.data() + at, kBlockVoxels, map.label(id));
 }
 
+std::vector<std::pair<std::int64_t, std::size_t>> BlockCopies::ByKey() const {
+    std::vector<std::pair<std::int64_t, std::size_t>> order;
+    for (std::size_t i = 0; i < size(); ++i) order.emplace_back(BlockKey(coords[i]), i);
+    std::ranges::sort(order);
+    return order;
+}
+
 void BlockCopies::Clear() {
     numbers.clear();
     coords.clear();
@@ -100,41 +107,27 @@ const std::vector<std::uint8_t>& BlockCodec::Encode(const BlockCopies& copies, s
     out = ToPlanes(copies.weight.data() + at, out);
     out = ToPlanes(copies.colour.data() + at, out);
     if (!copies.labels.empty()) ToPlanes(copies.labels.data() + at, out);
-    row_.resize(kNumberBytes);
-    std::memcpy(row_.data(), &copies.numbers[index], kNumberBytes);
-    compressor_.Compress(content_, row_);
-    return row_;
+    data_.resize(kNumberBytes);
+    std::memcpy(data_.data(), &copies.numbers[index], kNumberBytes);
+    compressor_.Compress(content_, data_);
+    return data_;
 }
 
-std::optional<std::int32_t> BlockCodec::NumberOf(std::span<const std::uint8_t> row) {
-    if (ContentBytes(row) == 0) return std::nullopt;
+std::optional<std::int32_t> BlockCodec::NumberOf(std::span<const std::uint8_t> data) {
+    if (ContentBytes(data) == 0) return std::nullopt;
     std::int32_t number;
-    std::memcpy(&number, row.data(), kNumberBytes);
+    std::memcpy(&number, data.data(), kNumberBytes);
     return number;
 }
 
-bool BlockCodec::Unpack(std::span<const std::uint8_t> row) {
-    content_.resize(ContentBytes(row));
-    return !content_.empty() && compressor_.Decompress(row.subspan(kNumberBytes), content_);
-}
-
-bool BlockCodec::Decode(std::span<const std::uint8_t> row, BlockMap& map, BlockId id) {
-    if (!Unpack(row)) return false;
-    const std::uint8_t* in = FromPlanes(content_.data(), map.field(id));
-    in = FromPlanes(in, map.weight(id));
-    in = FromPlanes(in, map.colour(id));
-    if (map.has_labels() && content_.size() == kLayerBytes + kLabelBytes)
-        FromPlanes(in, map.label(id));
-    return true;
-}
-
-bool BlockCodec::Decode(std::span<const std::uint8_t> row, const BlockCoord& coord,
-                        BlockCopies& copies) {
-    const std::optional<std::int32_t> number = NumberOf(row);
-    if (!number || !Unpack(row)) return false;
+bool BlockCodec::Decode(std::int64_t key, std::span<const std::uint8_t> data, BlockCopies& copies) {
+    const std::optional<std::int32_t> number = NumberOf(data);
+    if (!number) return false;
+    content_.resize(ContentBytes(data));
+    if (!compressor_.Decompress(data.subspan(kNumberBytes), content_)) return false;
     const std::size_t at = copies.size() * kBlockVoxels;
     const bool labels = content_.size() == kLayerBytes + kLabelBytes;
-    copies.Append(coord, *number, labels);
+    copies.Append(CoordOfKey(key), *number, labels);
     const std::uint8_t* in = FromPlanes(content_.data(), copies.field.data() + at);
     in = FromPlanes(in, copies.weight.data() + at);
     in = FromPlanes(in, copies.colour.data() + at);

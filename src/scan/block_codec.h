@@ -8,6 +8,7 @@
 
 #include "mapping/block_map.h"
 #include "scan/compression.h"
+#include "scan/scan_row.h"
 
 namespace tessera {
 
@@ -25,8 +26,10 @@ struct BlockCopies {
     // Appends a block; the caller fills in its voxels. If any block has labels, all have room for
     // them.
     void Append(const BlockCoord& coord, std::int32_t number, bool labels);
-    // Copies block `index` (from 0) into a block of a map.
+    // Copies block `index` (from 0) into a block of a map; labels only if both have them.
     void Put(std::size_t index, BlockMap& map, BlockId id) const;
+    // The blocks' keys with their indices, by increasing key.
+    std::vector<std::pair<std::int64_t, std::size_t>> ByKey() const;
     void Clear();
     std::size_t size() const { return numbers.size(); }
 };
@@ -38,19 +41,14 @@ class BlockCodec {
     const std::vector<std::uint8_t>& Encode(const BlockCopies& copies, std::size_t index);
 
     // Returns the number of the row's block; nullopt if the row's sizes are invalid.
-    static std::optional<std::int32_t> NumberOf(std::span<const std::uint8_t> row);
-    // Decodes into a block of a map. Writes labels only if both the map and the row have them.
-    // Returns false if the row is invalid.
-    bool Decode(std::span<const std::uint8_t> row, BlockMap& map, BlockId id);
-    // Appends to `copies`, with labels if the row has them. If the row is invalid, returns false
-    // and appends nothing.
-    bool Decode(std::span<const std::uint8_t> row, const BlockCoord& coord, BlockCopies& copies);
+    static std::optional<std::int32_t> NumberOf(std::span<const std::uint8_t> data);
+    // Appends a row's block to `copies`, with labels if the row has them. If the row is invalid,
+    // returns false and appends nothing.
+    bool Decode(std::int64_t key, std::span<const std::uint8_t> data, BlockCopies& copies);
 
   private:
-    bool Unpack(std::span<const std::uint8_t> row);
-
     Compressor compressor_;
-    std::vector<std::uint8_t> content_, row_;
+    std::vector<std::uint8_t> content_, data_;
 };
 
 }  // namespace tessera

@@ -20,8 +20,7 @@ Result<std::unique_ptr<CubeReader>> CubeReader::Open(const std::string& path) {
     Result<std::unique_ptr<Database>> database = Database::Open(path, Database::Access::kRead);
     if (!database.ok()) return database.status();
     Result<DatabaseStatement> select = database.value()->Prepare(
-        "SELECT key, epoch, checkpoint, data, checksum FROM blocks WHERE key BETWEEN ? AND ? ORDER "
-        "BY key");
+        SelectRows(ScanTable::kBlocks, "WHERE key BETWEEN ? AND ? ORDER BY key"));
     if (!select.ok()) return select.status();
     return std::unique_ptr<CubeReader>(
         new CubeReader(std::move(database.value()), std::move(select.value())));
@@ -39,15 +38,11 @@ Status CubeReader::Read(std::int64_t cube_key, BlockCopies& blocks) {
     select_.Bind(2, cube_key + kCubeKeys - 1);
     Status status = Status::Ok();
     int step = select_.Step();
-    for (; step == kStepRow && status.ok(); step = select_.Step()) {
-        const ScanRow row{ScanTable::kBlocks, select_.Number(0), select_.Number(1),
-                          select_.Number(2), select_.Bytes(3)};
-        if (ChecksumOf(row) != static_cast<std::uint64_t>(select_.Number(4)) ||
-            CubeKeyOf(row.key) != cube_key ||
-            !codec_.Decode(row.data, CoordOfKey(row.key), blocks) ||
-            !IsNumber(blocks.numbers.back()))
+    ScanRow row;
+    for (; step == kStepRow && status.ok(); step = select_.Step())
+        if (!ReadRow(select_, ScanTable::kBlocks, row) || CubeKeyOf(row.key) != cube_key ||
+            !codec_.Decode(row.key, row.data, blocks) || !IsNumber(blocks.numbers.back()))
             status = DamagedScan(path(), fmt::format("block {}", row.key));
-    }
     if (status.ok() && step != kStepDone) status = ReadError();
     select_.Reset();  // ends the read, so that the writer can checkpoint its journal
     return status;

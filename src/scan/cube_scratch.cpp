@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstring>
 
 #include "scan/checksum.h"
@@ -48,12 +47,8 @@ CubeScratch::Place CubeScratch::Room(std::uint64_t bytes) {
 }
 
 Status CubeScratch::Put(std::int64_t cube_key, const BlockCopies& blocks) {
-    std::vector<std::pair<std::int64_t, std::size_t>> order;
-    for (std::size_t i = 0; i < blocks.size(); ++i)
-        order.emplace_back(BlockKey(blocks.coords[i]), i);
-    std::ranges::sort(order);
     rows_.clear();
-    for (const auto& [key, i] : order) {
+    for (const auto& [key, i] : blocks.ByKey()) {
         const std::vector<std::uint8_t>& row = codec_.Encode(blocks, i);
         const RowHead head{key, row.size()};
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(&head);
@@ -94,12 +89,11 @@ Status CubeScratch::Read(std::int64_t cube_key, BlockCopies& blocks) const {
     blocks.Clear();
     std::vector<std::uint8_t> rows;
     BlockCodec codec;
-    return ReadRows(places_.at(cube_key), rows,
-                    [&](std::int64_t key, std::span<const std::uint8_t> data) {
-                        return codec.Decode(data, CoordOfKey(key), blocks)
-                                   ? Status::Ok()
-                                   : Error("was damaged; check the disk");
-                    });
+    return ReadRows(
+        places_.at(cube_key), rows, [&](std::int64_t key, std::span<const std::uint8_t> data) {
+            return codec.Decode(key, data, blocks) ? Status::Ok()
+                                                   : Error("was damaged; check the disk");
+        });
 }
 
 std::map<std::int64_t, std::int32_t> CubeScratch::Cubes() const {

@@ -15,14 +15,13 @@ std::vector<std::string> FoundRows::Index() {
         if (row.epoch < epoch) return;
         if (row.epoch > epoch) found.clear();
         epoch = row.epoch;
-        const FoundRow version{row.epoch, row.checkpoint, place};
+        const FoundRow version{row.checkpoint, place};
         const auto [at, fresh] = found.try_emplace(row.key, version);
         if (!fresh && at->second.checkpoint <= row.checkpoint) at->second = version;
     });
     ScanRow row;
     ScanSeal seal;
-    if (!Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kSeal), row) ||
-        !ScanSeal::Decode(row.data, seal))
+    if (!Load(ScanStateKey::kSeal, row) || !seal.Decode(row.data))
         return {"the number of rows per table"};
     std::vector<std::string> lost;
     for (const ScanTable table :

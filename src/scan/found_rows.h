@@ -14,7 +14,7 @@ namespace tessera {
 
 // A version of a row, and where it is.
 struct FoundRow {
-    std::int64_t epoch = 0, checkpoint = 0;
+    std::int64_t checkpoint = 0;
     PageWalk::Place place;
 };
 using ScanRows = std::map<std::int64_t, FoundRow>;  // by key
@@ -31,6 +31,9 @@ class FoundRows {
     const ScanRows& rows(ScanTable table) const { return rows_[IndexOf(table)]; }
     // Returns false if there is no such row. `row` is valid until the next Load.
     bool Load(ScanTable table, std::int64_t key, ScanRow& row);
+    bool Load(ScanStateKey key, ScanRow& row) {
+        return Load(ScanTable::kState, static_cast<std::int64_t>(key), row);
+    }
 
   private:
     std::unique_ptr<PageWalk> walk_;

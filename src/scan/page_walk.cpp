@@ -198,7 +198,7 @@ bool PageWalk::GatherOverflow(std::uint32_t number, bool journal, std::size_t si
 }
 
 // The checksum determines which table the row belongs to.
-bool PageWalk::ParseRecord(std::int64_t key, ScanRow& row) const {
+bool PageWalk::ParseRecord(std::int64_t key, ScanRow& row) {
     std::size_t at = 0;
     std::uint64_t header_size = 0, types[5] = {};
     const std::span<const std::uint8_t> record(payload_);

@@ -46,7 +46,7 @@ class PageWalk {
     bool ReadCell(std::span<const std::uint8_t> page, std::size_t offset, bool journal,
                   ScanRow& row);
     bool GatherOverflow(std::uint32_t page, bool journal, std::size_t size);
-    bool ParseRecord(std::int64_t key, ScanRow& row) const;
+    bool ParseRecord(std::int64_t key, ScanRow& row);
     std::span<const std::uint8_t> Page(const PageImage& image) const;
 
     std::vector<std::unique_ptr<File>> files_;
@@ -54,7 +54,7 @@ class PageWalk {
     std::size_t main_pages_ = 0;
     std::vector<std::size_t> newest_in_journal_;  // by page number: 1 + image index, 0 = none
     std::vector<std::uint8_t> payload_;           // of the last cell
-    mutable ScanTable last_table_ = ScanTable::kBlocks;
+    ScanTable last_table_ = ScanTable::kBlocks;
 };
 
 }  // namespace tessera

@@ -10,14 +10,12 @@
 namespace tessera {
 namespace {
 
-Result<Bytes> ReadState(ScanFile& file, ScanStateKey key) {
-    return file.ReadOne(ScanTable::kState, static_cast<std::int64_t>(key));
+Status DamagedRow(const ScanFile& file, const ScanRow& row) {
+    return DamagedScan(file.path(), fmt::format("{} {}", ToString(row.table), row.key));
 }
 
 // Block numbers start at 1 and define the allocation order.
 Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
-    const auto count =
-        static_cast<std::size_t>(file.seal().tables[IndexOf(ScanTable::kBlocks)].rows);
     std::vector<std::pair<BlockId, BlockCoord>> blocks;
     Status read = file.Read(ScanTable::kBlocks, [&](const ScanRow& row) {
         const std::optional<std::int32_t> number = BlockCodec::NumberOf(row.data);
@@ -31,7 +29,7 @@ Result<std::vector<BlockCoord>> ReadBlockOrder(ScanFile& file) {
     std::vector<BlockCoord> order;
     for (const auto& [id, coord] : blocks) {
         if (static_cast<std::size_t>(id) != order.size() + 1)
-            return DamagedScan(file.path(), fmt::format("{} blocks", count));
+            return DamagedScan(file.path(), fmt::format("{} blocks", blocks.size()));
         order.push_back(coord);
     }
     return order;
@@ -52,10 +50,13 @@ Status ReadMap(ScanFile& file, bool labels, ScanContent& content) {
             return Status::Error(fmt::format("{}: {} blocks do not fit in this machine's memory",
                                              file.path(), order.value().size()));
     BlockCodec codec;
+    BlockCopies block;
     return file.Read(ScanTable::kBlocks, [&](const ScanRow& row) {
         const BlockId id = map.Find(CoordOfKey(row.key));
-        if (id == kUnknownBlock || !codec.Decode(row.data, map, id))
+        block.Clear();
+        if (id == kUnknownBlock || !codec.Decode(row.key, row.data, block))
             return DamagedScan(file.path(), fmt::format("block {}", row.key));
+        block.Put(0, map, id);
         map.MarkChanged(id, std::max(1u, content.progress.fused_frames));
         return Status::Ok();
     });
@@ -67,21 +68,18 @@ Status ReadPath(ScanFile& file, ScanContent& content) {
         if (row.key != static_cast<std::int64_t>(content.path.size()) - 1 ||
             !record.Decode(row.data) ||
             record.keyframe >= static_cast<int>(content.keyframes.size()))
-            return DamagedScan(file.path(), fmt::format("path {}", row.key));
+            return DamagedRow(file, row);
         return Status::Ok();
     });
 }
 
 Status ReadKeyframes(ScanFile& file, ScanContent& content) {
-    const auto damaged = [&](const ScanRow& row) {
-        return DamagedScan(file.path(), fmt::format("{} {}", ToString(row.table), row.key));
-    };
     Status keyframes = file.Read(ScanTable::kKeyframes, [&](const ScanRow& row) {
         Keyframe& keyframe = content.keyframes.emplace_back();
         keyframe.id = static_cast<int>(content.keyframes.size()) - 1;
         return row.key == keyframe.id && DecodeKeyframe(row.data, content.meta.camera, keyframe)
                    ? Status::Ok()
-                   : damaged(row);
+                   : DamagedRow(file, row);
     });
     if (!keyframes.ok()) return keyframes;
     std::size_t posed = 0;
@@ -89,7 +87,7 @@ Status ReadKeyframes(ScanFile& file, ScanContent& content) {
         KeyframePoses both;
         if (row.key != static_cast<std::int64_t>(posed) || posed >= content.keyframes.size() ||
             !both.Decode(row.data))
-            return damaged(row);
+            return DamagedRow(file, row);
         content.keyframes[posed].T_map_camera = both.T_map_camera;
         content.keyframes[posed++].T_world_camera = both.T_world_camera;
         return Status::Ok();
@@ -100,21 +98,18 @@ Status ReadKeyframes(ScanFile& file, ScanContent& content) {
 }
 
 Status ReadStates(ScanFile& file, ScanContent& content) {
-    for (auto& [key, bytes] :
-         {std::pair<ScanStateKey, Bytes*>{ScanStateKey::kTracking, &content.tracking},
-          {ScanStateKey::kLabels, &content.labels}}) {
-        Result<Bytes> read = ReadState(file, key);
+    Bytes source, loops;
+    for (const auto& [key, bytes] : {std::pair{ScanStateKey::kTracking, &content.tracking},
+                                     {ScanStateKey::kLabels, &content.labels},
+                                     {ScanStateKey::kSource, &source},
+                                     {ScanStateKey::kLoops, &loops}}) {
+        Result<Bytes> read = file.ReadOne(key);
         if (!read.ok()) return read.status();
         *bytes = std::move(read.value());
     }
-    const Result<Bytes> source = ReadState(file, ScanStateKey::kSource);
-    if (!source.ok()) return source.status();
-    content.source_name.assign(source.value().begin(), source.value().end());
+    content.source_name.assign(source.begin(), source.end());
     if (content.source_name.empty()) content.source_name = content.meta.source_name;
-    const Result<Bytes> loops = ReadState(file, ScanStateKey::kLoops);
-    if (!loops.ok()) return loops.status();
-    if (!loops.value().empty() && !content.loops.Decode(loops.value()))
-        return DamagedScan(file.path(), "loops");
+    if (!loops.empty() && !content.loops.Decode(loops)) return DamagedScan(file.path(), "loops");
     const int keyframes = static_cast<int>(content.keyframes.size());
     for (const PoseEdge& edge : content.loops.edges)
         if (edge.from < 0 || edge.to < 0 || edge.from >= keyframes || edge.to >= keyframes ||
@@ -128,7 +123,9 @@ Status ReadStates(ScanFile& file, ScanContent& content) {
 
 Status ReadFrames(ScanFile& file, ScanContent& content) {
     ImageScratch scratch;
-    return ReadScanFrames(file, [&](FrameRecord&& record) {
+    return file.Read(ScanTable::kFrames, [&](const ScanRow& row) {
+        FrameRecord record;
+        if (!record.Decode(row.data)) return DamagedRow(file, row);
         if (record.in_store && record.stored.keyframe >= static_cast<int>(content.keyframes.size()))
             return DamagedScan(file.path(), "frames without a keyframe");
         const auto images = record.stored.images.Read();
@@ -156,6 +153,19 @@ Result<ScanMeta> ReadMeta(ScanFile& file) {
 }
 
 }  // namespace
+
+bool ScanContent::Shows(const Eigen::Isometry3d& T_map) const {
+    return keyframes.empty() || std::ranges::any_of(keyframes, [&](const Keyframe& keyframe) {
+               return !LeftOut(keyframe.id) && InOnePart(keyframe.T_map_camera, T_map) &&
+                      InOnePart(keyframe.T_map_camera, keyframe.T_world_camera);
+           });
+}
+
+void ScanContent::RemoveHiddenBlocks() {
+    if (!map) return;
+    for (BlockId id = 1; id < map->size(); ++id)
+        if (!map->IsFree(id) && !Shows(PlaceOf(*map, id))) map->Release(id);
+}
 
 std::optional<Eigen::Isometry3d> ScanContent::PoseOf(const PathRecord& record) const {
     if (!record.tracked()) return std::nullopt;
@@ -193,15 +203,6 @@ std::vector<StampedPose> ScanContent::Truth() const {
     return poses;
 }
 
-Status ReadScanFrames(ScanFile& file, const std::function<Status(FrameRecord&&)>& take) {
-    return file.Read(ScanTable::kFrames, [&](const ScanRow& row) {
-        FrameRecord record;
-        if (!record.Decode(row.data))
-            return DamagedScan(file.path(), fmt::format("frames {}", row.key));
-        return take(std::move(record));
-    });
-}
-
 Result<ScanMeta> ReadScanMeta(const std::string& path) {
     Result<std::unique_ptr<ScanFile>> file = ScanFile::OpenToRead(path);
     if (!file.ok()) return file.status();
@@ -214,13 +215,19 @@ Result<ScanContent> ReadScan(const std::string& path, const ScanParts& parts) {
     return ReadScan(*file.value(), parts);
 }
 
+Result<ScanContent> ReadScanToShow(const std::string& path, const ScanParts& parts) {
+    Result<ScanContent> scan = ReadScan(path, parts);
+    if (scan.ok()) scan.value().RemoveHiddenBlocks();
+    return scan;
+}
+
 Result<ScanContent> ReadScan(ScanFile& file, const ScanParts& parts) {
     ScanContent content;
     content.finished = file.seal().finished;
     Result<ScanMeta> meta = ReadMeta(file);
     if (!meta.ok()) return meta.status();
     content.meta = std::move(meta.value());
-    const Result<Bytes> progress = ReadState(file, ScanStateKey::kProgress);
+    const Result<Bytes> progress = file.ReadOne(ScanStateKey::kProgress);
     if (!progress.ok()) return progress.status();
     if (!progress.value().empty() && !content.progress.Decode(progress.value()))
         return DamagedScan(file.path(), "progress");

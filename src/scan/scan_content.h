@@ -31,9 +31,13 @@ struct ScanContent {
     bool LeftOut(int keyframe) const {
         return !left_out.empty() && left_out[static_cast<std::size_t>(keyframe)];
     }
-    // Whether a place in the map belongs to what is shown and exported: not to a part that is left
-    // out, or that was joined but is not in place yet.
+    // Whether a place in the map belongs to what is shown and exported. The scan of a run that was
+    // killed may hold parts that nothing joins with the rest, far away in the map
+    // (optimize/scan_parts.h): they are left out, and so is a part that was joined but is not in
+    // place yet.
     bool Shows(const Eigen::Isometry3d& T_map) const;
+    // Removes the blocks that are not shown from the map, if there is one.
+    void RemoveHiddenBlocks();
     // The current T_world_camera of a frame of the path; nullopt if it was not tracked, or is in a
     // part of the scan that is left out.
     std::optional<Eigen::Isometry3d> PoseOf(const PathRecord& record) const;
@@ -55,8 +59,7 @@ struct ScanParts {
 Result<ScanContent> ReadScan(const std::string& path, const ScanParts& parts);
 Result<ScanContent> ReadScan(ScanFile& file, const ScanParts& parts);
 Result<ScanMeta> ReadScanMeta(const std::string& path);
-
-// Passes every stored frame's record to `take`, in order, with one at a time in memory.
-Status ReadScanFrames(ScanFile& file, const std::function<Status(FrameRecord&&)>& take);
+// As it is shown and exported: without hidden blocks.
+Result<ScanContent> ReadScanToShow(const std::string& path, const ScanParts& parts);
 
 }  // namespace tessera

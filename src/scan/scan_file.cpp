@@ -110,16 +110,14 @@ Result<std::unique_ptr<ScanFile>> ScanFile::Create(const std::string& path,
         for (const ScanTable table : kScanTables) sql += TableSql(table) + "; ";
         Status made = file->database_->Execute(sql);
         if (made.ok()) made = file->PrepareToWrite();
-        if (made.ok()) made = file->Begin();
         if (made.ok()) {
+            file->Begin();
             file->next_.checkpoint = 0;
-            made = file->Put(ScanTable::kMeta, 0, meta);
+            file->Put(ScanTable::kMeta, 0, meta);
             // Store a second copy on another page, for repair.
-            if (made.ok())
-                made = file->Put(ScanTable::kState,
-                                 static_cast<std::int64_t>(ScanStateKey::kMetaCopy), meta);
+            file->Put(ScanStateKey::kMetaCopy, meta);
+            made = file->Commit(false);
         }
-        if (made.ok()) made = file->Commit(false);
         // Set WAL mode before the file gets its name: if the process is killed while SQLite changes
         // the mode, the file cannot be opened for reading.
         if (made.ok()) made = file->database_->Execute("PRAGMA journal_mode=WAL");
@@ -217,9 +215,9 @@ Status ScanFile::CheckHeader() {
 }
 
 Status ScanFile::LoadSeal() {
-    Result<std::vector<std::uint8_t>> bytes = ReadOne(ScanTable::kState, kSealKey);
+    Result<std::vector<std::uint8_t>> bytes = ReadOne(ScanStateKey::kSeal);
     if (!bytes.ok()) return bytes.status();
-    if (!ScanSeal::Decode(bytes.value(), seal_)) return DamagedScan(path(), "no seal");
+    if (!seal_.Decode(bytes.value())) return DamagedScan(path(), "no seal");
     return Status::Ok();
 }
 

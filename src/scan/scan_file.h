@@ -9,6 +9,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/status.h"
@@ -27,11 +28,17 @@ struct ScanSeal {
     std::array<Table, kScanTableCount> tables;
 
     std::vector<std::uint8_t> Encode() const;
-    static bool Decode(std::span<const std::uint8_t> bytes, ScanSeal& seal);
+    bool Decode(std::span<const std::uint8_t> bytes);
 };
 
 // The error for a file with damaged content. It suggests `tessera scan repair`.
 Status DamagedScan(const std::string& path, const std::string& why);
+
+// The statement that selects rows of a table; `which` says which ones, and in which order.
+std::string SelectRows(ScanTable table, const std::string& which);
+// Reads the row at which such a statement stands. Returns its checksum; nullopt if that is wrong.
+std::optional<std::uint64_t> ReadRow(const DatabaseStatement& statement, ScanTable table,
+                                     ScanRow& row);
 
 // Owner thread only. Errors name the file, what is wrong and what to do.
 class ScanFile {
@@ -59,18 +66,26 @@ class ScanFile {
     // the end, the row count and checksum sum against the seal. Stops early if `take` returns an
     // error.
     Status Read(ScanTable table, const std::function<Status(const ScanRow&)>& take);
-    // Returns the data of one row of kState or kMeta; empty if there is none.
+    // Returns the data of one row; empty if there is none.
     Result<std::vector<std::uint8_t>> ReadOne(ScanTable table, std::int64_t key);
+    Result<std::vector<std::uint8_t>> ReadOne(ScanStateKey key) {
+        return ReadOne(ScanTable::kState, static_cast<std::int64_t>(key));
+    }
 
-    // To write one checkpoint: Begin, any number of Put and Clear, Commit. On error, the file stays
-    // as it was before Begin.
-    Status Begin();
-    Status Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data);
+    // To write one checkpoint: Begin, any number of Put and Clear, Commit. The first error gives
+    // the checkpoint up: the file is then as it was before Begin, the calls that follow do nothing,
+    // and Commit returns the error.
+    void Begin();
+    void Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data);
+    void Put(ScanStateKey key, std::span<const std::uint8_t> data) {
+        Put(ScanTable::kState, static_cast<std::int64_t>(key), data);
+    }
     // Deletes all rows of the table. New rows belong to a new epoch.
-    Status Clear(ScanTable table);
+    void Clear(ScanTable table);
     Status Commit(bool finished);
-    // Restores the file as it was before Begin.
-    void Rollback();
+    // Gives the checkpoint up because of an error of the caller.
+    void Abandon(const Status& error);
+    const Status& error() const { return error_; }  // the first since Begin
     // Merges the journal into the file and removes it. Call it once, at the end of writing.
     void Close();
 
@@ -84,7 +99,6 @@ class ScanFile {
     Status CheckHeader();
     Status LoadSeal();
     Status PrepareToWrite();
-    Status Abandon(const std::string& doing);
     Status Failed(const std::string& doing) const;
 
     bool fresh_ = false;  // made by Create
@@ -94,6 +108,7 @@ class ScanFile {
     int lock_ = -1;
     std::unique_ptr<Database> database_;
     ScanSeal seal_, next_;  // as committed, and as it will be after Commit
+    Status error_;
     std::array<Statements, kScanTableCount> statements_;
 };
 

@@ -6,29 +6,40 @@
 
 namespace tessera {
 
+namespace {
+
+// In the order of their bytes, as in scan_records.cpp. The tables follow the seal.
+auto SealFields(auto& seal) { return std::tie(seal.checkpoint, seal.finished); }
+
+auto SealedFields(auto& table) { return std::tie(table.epoch, table.rows, table.checksums); }
+
+}  // namespace
+
 std::vector<std::uint8_t> ScanSeal::Encode() const {
-    std::vector<std::uint8_t> bytes;
-    StateWriter state(bytes);
-    state.Put(checkpoint);
-    state.Put(finished);
-    for (const Table& table : tables) {
-        state.Put(table.epoch);
-        state.Put(table.rows);
-        state.Put(table.checksums);
-    }
+    std::vector<std::uint8_t> bytes = Encoded(SealFields(*this));
+    for (const Table& table : tables) StateWriter(bytes).Put(SealedFields(table));
     return bytes;
 }
 
-bool ScanSeal::Decode(std::span<const std::uint8_t> bytes, ScanSeal& seal) {
+bool ScanSeal::Decode(std::span<const std::uint8_t> bytes) {
     StateReader state(bytes);
-    state.Get(seal.checkpoint);
-    state.Get(seal.finished);
-    for (Table& table : seal.tables) {
-        state.Get(table.epoch);
-        state.Get(table.rows);
-        state.Get(table.checksums);
-    }
+    state.Get(SealFields(*this));
+    for (Table& table : tables) state.Get(SealedFields(table));
     return state.at_end();
+}
+
+std::string SelectRows(ScanTable table, const std::string& which) {
+    return fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} {}", ToString(table),
+                       which);
+}
+
+std::optional<std::uint64_t> ReadRow(const DatabaseStatement& statement, ScanTable table,
+                                     ScanRow& row) {
+    row = {table, statement.Number(0), statement.Number(1), statement.Number(2),
+           statement.Bytes(3)};
+    const std::uint64_t checksum = ChecksumOf(row);
+    return checksum == static_cast<std::uint64_t>(statement.Number(4)) ? std::optional(checksum)
+                                                                       : std::nullopt;
 }
 
 Status ScanFile::Failed(const std::string& doing) const {
@@ -38,25 +49,22 @@ Status ScanFile::Failed(const std::string& doing) const {
 
 Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&)>& take) {
     const char* name = ToString(table);
-    Result<DatabaseStatement> select = database_->Prepare(
-        fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} ORDER BY key", name));
+    Result<DatabaseStatement> select = database_->Prepare(SelectRows(table, "ORDER BY key"));
     if (!select.ok()) return Failed(name);
     DatabaseStatement& rows = select.value();
     ScanSeal::Table found;
     const ScanSeal::Table& sealed = seal_.tables[IndexOf(table)];
-    std::int64_t last = 0;
-    bool first = true;
+    ScanRow row;
+    std::optional<std::int64_t> last;
     int step = rows.Step();
     for (; step == kStepRow; step = rows.Step()) {
-        const ScanRow row{table, rows.Number(0), rows.Number(1), rows.Number(2), rows.Bytes(3)};
-        const std::uint64_t checksum = ChecksumOf(row);
-        if (checksum != static_cast<std::uint64_t>(rows.Number(4)) || (!first && row.key <= last))
+        const std::optional<std::uint64_t> checksum = ReadRow(rows, table, row);
+        if (!checksum || (last && row.key <= *last))
             return DamagedScan(path(), fmt::format("{} {}", name, row.key));
-        first = false;
         last = row.key;
         if (table == ScanTable::kState && row.key == kSealKey) continue;
         ++found.rows;
-        found.checksums += checksum;
+        found.checksums += *checksum;
         if (row.epoch != sealed.epoch || row.checkpoint > seal_.checkpoint ||
             found.rows > sealed.rows)
             return DamagedScan(path(),
@@ -74,16 +82,15 @@ Status ScanFile::Read(ScanTable table, const std::function<Status(const ScanRow&
 
 Result<std::vector<std::uint8_t>> ScanFile::ReadOne(ScanTable table, std::int64_t key) {
     const char* name = ToString(table);
-    Result<DatabaseStatement> select = database_->Prepare(
-        fmt::format("SELECT key, epoch, checkpoint, data, checksum FROM {} WHERE key = ?", name));
+    Result<DatabaseStatement> select = database_->Prepare(SelectRows(table, "WHERE key = ?"));
     if (!select.ok()) return Failed(name);
     DatabaseStatement& found = select.value();
     found.Bind(1, key);
     const int step = found.Step();
     if (step == kStepDone) return std::vector<std::uint8_t>();
     if (step != kStepRow) return Failed(name);
-    const ScanRow row{table, found.Number(0), found.Number(1), found.Number(2), found.Bytes(3)};
-    if (row.key != key || ChecksumOf(row) != static_cast<std::uint64_t>(found.Number(4)))
+    ScanRow row;
+    if (!ReadRow(found, table, row) || row.key != key)
         return DamagedScan(path(), fmt::format("{} {}", name, key));
     return std::vector<std::uint8_t>(row.data.begin(), row.data.end());
 }
@@ -101,13 +108,14 @@ Status ScanFile::PrepareToWrite() {
     return Status::Ok();
 }
 
-Status ScanFile::Begin() {
+void ScanFile::Begin() {
     next_ = seal_;
     ++next_.checkpoint;
-    return database_->Execute("BEGIN IMMEDIATE");
+    error_ = database_->Execute("BEGIN IMMEDIATE");
 }
 
-Status ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data) {
+void ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uint8_t> data) {
+    if (!error_.ok()) return;
     Statements& statements = statements_[IndexOf(table)];
     ScanSeal::Table& sealed = next_.tables[IndexOf(table)];
     const ScanRow row{table, key, sealed.epoch, next_.checkpoint, data};
@@ -119,7 +127,8 @@ Status ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uin
         sealed.checksums -= static_cast<std::uint64_t>(statements.find.Number(0));
     }
     statements.find.Reset();
-    if (found != kStepRow && found != kStepDone) return Abandon("cannot be written");
+    if (found != kStepRow && found != kStepDone)
+        return Abandon(database_->Error("cannot be written"));
     const std::uint64_t checksum = ChecksumOf(row);
     if (counted) {
         ++sealed.rows;
@@ -130,42 +139,39 @@ Status ScanFile::Put(ScanTable table, std::int64_t key, std::span<const std::uin
     statements.replace.Bind(3, row.checkpoint);
     statements.replace.Bind(4, data);
     statements.replace.Bind(5, static_cast<std::int64_t>(checksum));
-    const int step = statements.replace.Step();
-    if (step != kStepDone) return Abandon("cannot be written");
+    if (statements.replace.Step() != kStepDone)
+        return Abandon(database_->Error("cannot be written"));
     statements.replace.Reset();
-    return Status::Ok();
 }
 
-Status ScanFile::Clear(ScanTable table) {
+void ScanFile::Clear(ScanTable table) {
+    if (!error_.ok()) return;
     ScanSeal::Table& sealed = next_.tables[IndexOf(table)];
     sealed = {sealed.epoch + 1, 0, 0};
-    if (Status status = database_->Execute(fmt::format("DELETE FROM {}", ToString(table)));
-        !status.ok())
-        return Abandon("cannot be written");
-    return Status::Ok();
+    if (!database_->Execute(fmt::format("DELETE FROM {}", ToString(table))).ok())
+        Abandon(database_->Error("cannot be written"));
 }
 
 Status ScanFile::Commit(bool finished) {
     next_.finished = finished;
-    const std::vector<std::uint8_t> seal = next_.Encode();
-    if (Status status = Put(ScanTable::kState, kSealKey, seal); !status.ok()) return status;
+    Put(ScanStateKey::kSeal, next_.Encode());
+    if (!error_.ok()) return error_;
     // Older programs must not read what this one writes.
     const std::string sql = version_ < kScanVersion
                                 ? fmt::format("PRAGMA user_version={}; COMMIT", kScanVersion)
                                 : "COMMIT";
-    if (Status status = database_->Execute(sql); !status.ok()) return Abandon("cannot be written");
+    if (!database_->Execute(sql).ok()) {
+        Abandon(database_->Error("cannot be written"));
+        return error_;
+    }
     version_ = kScanVersion;
     seal_ = next_;
     return Status::Ok();
 }
 
-Status ScanFile::Abandon(const std::string& doing) {
-    const Status error = database_->Error(doing);
-    Rollback();
-    return error;
-}
-
-void ScanFile::Rollback() {
+void ScanFile::Abandon(const Status& error) {
+    if (!error_.ok()) return;
+    error_ = error;
     for (Statements& statements : statements_) {
         statements.find.Reset();
         statements.replace.Reset();

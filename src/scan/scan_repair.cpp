@@ -24,53 +24,46 @@ class Repair {
         report_.lost = found_.Index();
         if (!FindMeta())
             return Status::Error(path_ + ": nothing can be recovered: the scan's metadata is lost");
-        if (rows(ScanTable::kBlocks).empty() && rows(ScanTable::kPath).empty())
+        if (found_.rows(ScanTable::kBlocks).empty() && found_.rows(ScanTable::kPath).empty())
             return Status::Error(path_ +
                                  ": nothing can be recovered: no block and no pose is intact");
         JudgeLoops();
         ScanRow labels;
-        labelled_ =
-            Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kLabels), labels) &&
-            !labels.data.empty();
+        labelled_ = found_.Load(ScanStateKey::kLabels, labels) && !labels.data.empty();
         Result<std::unique_ptr<ScanFile>> file = ScanFile::Create(out_, meta_.Encode());
         if (!file.ok()) return file.status();
         file_ = std::move(file.value());
-        if (Status status = file_->Begin(); !status.ok()) return status;
-        for (const auto& copy : {&Repair::CopyBlocks, &Repair::CopyPath, &Repair::CopyKeyframes,
-                                 &Repair::CopyFrames, &Repair::CopyState})
-            if (Status status = (this->*copy)(); !status.ok()) return status;
+        file_->Begin();
+        CopyBlocks();
+        CopyPath();
+        if (meta_.loops) CopyKeyframes();
+        CopyFrames();
+        CopyState();
         if (Status status = file_->Commit(false); !status.ok()) return status;
         file_->Close();
         return std::move(report_);
     }
 
   private:
-    const ScanRows& rows(ScanTable table) const { return found_.rows(table); }
-    bool Load(ScanTable table, std::int64_t key, ScanRow& row) {
-        return found_.Load(table, key, row);
-    }
-
     bool FindMeta() {
         ScanRow row;
-        return (Load(ScanTable::kMeta, 0, row) && meta_.Decode(row.data)) ||
-               (Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kMetaCopy), row) &&
-                meta_.Decode(row.data));
+        return (found_.Load(ScanTable::kMeta, 0, row) && meta_.Decode(row.data)) ||
+               (found_.Load(ScanStateKey::kMetaCopy, row) && meta_.Decode(row.data));
     }
 
     // Loop closure can continue only with all keyframes. Otherwise the path is written without
     // them.
     void JudgeLoops() {
         ScanRow row;
-        const std::size_t count = rows(ScanTable::kPoses).size();
-        bool whole =
-            meta_.loops &&
-            Load(ScanTable::kState, static_cast<std::int64_t>(ScanStateKey::kLoops), row) &&
-            loops_.Decode(row.data) && rows(ScanTable::kKeyframes).size() == count;
+        const std::size_t count = found_.rows(ScanTable::kPoses).size();
+        bool whole = meta_.loops && found_.Load(ScanStateKey::kLoops, row) &&
+                     loops_.Decode(row.data) && found_.rows(ScanTable::kKeyframes).size() == count;
         Keyframe keyframe;
-        for (const auto& [key, place] : rows(ScanTable::kPoses)) {
+        for (const auto& [key, place] : found_.rows(ScanTable::kPoses)) {
             KeyframePoses poses;
-            if (Load(ScanTable::kPoses, key, row) && poses.Decode(row.data)) poses_[key] = poses;
-            whole = whole && Load(ScanTable::kKeyframes, key, row) &&
+            if (found_.Load(ScanTable::kPoses, key, row) && poses.Decode(row.data))
+                poses_[key] = poses;
+            whole = whole && found_.Load(ScanTable::kKeyframes, key, row) &&
                     DecodeKeyframe(row.data, meta_.camera, keyframe) &&
                     std::ranges::all_of(keyframe.overlaps,
                                         [id = key](const Overlap& o) { return o.with < id; });
@@ -87,11 +80,12 @@ class Repair {
 
     // Renumbers the blocks without gaps, in their original order. Leaves out their labels if the
     // objects that these name are lost.
-    Status CopyBlocks() {
+    void CopyBlocks() {
         std::vector<std::pair<BlockId, std::int64_t>> order;
         ScanRow row;
-        for (const auto& [key, place] : rows(ScanTable::kBlocks))
-            if (Load(ScanTable::kBlocks, key, row) && BlockCodec::NumberOf(row.data) && key >= 0)
+        for (const auto& [key, place] : found_.rows(ScanTable::kBlocks))
+            if (found_.Load(ScanTable::kBlocks, key, row) && BlockCodec::NumberOf(row.data) &&
+                key >= 0)
                 order.emplace_back(*BlockCodec::NumberOf(row.data), key);
         std::ranges::sort(order);
         BlockId next = 1;
@@ -99,30 +93,28 @@ class Repair {
         BlockCopies block;
         bool unlabelled = false;
         for (const auto& [id, key] : order) {
-            Load(ScanTable::kBlocks, key, row);
+            found_.Load(ScanTable::kBlocks, key, row);
             Bytes data(row.data.begin(), row.data.end());
             block.Clear();
-            if (!labelled_ && codec.Decode(data, CoordOfKey(key), block) && !block.labels.empty()) {
+            if (!labelled_ && codec.Decode(key, data, block) && !block.labels.empty()) {
                 unlabelled = true;
                 block.labels.clear();
                 data = codec.Encode(block, 0);
             }
             std::memcpy(data.data(), &next, sizeof(next));
             ++next;
-            if (Status status = file_->Put(ScanTable::kBlocks, key, data); !status.ok())
-                return status;
+            file_->Put(ScanTable::kBlocks, key, data);
         }
         if (unlabelled) report_.lost.push_back("the objects' labels");
         report_.blocks = next - 1;
-        return Status::Ok();
     }
 
-    Status CopyPath() {
+    void CopyPath() {
         ScanRow row;
         std::int64_t unplaced = 0;
-        for (const auto& [key, place] : rows(ScanTable::kPath)) {
+        for (const auto& [key, place] : found_.rows(ScanTable::kPath)) {
             PathRecord record;
-            if (!Load(ScanTable::kPath, key, row) || !record.Decode(row.data)) continue;
+            if (!found_.Load(ScanTable::kPath, key, row) || !record.Decode(row.data)) continue;
             if (record.keyframe >= 0 && !meta_.loops) {
                 const auto poses = poses_.find(record.keyframe);
                 if (poses == poses_.end()) {
@@ -137,56 +129,43 @@ class Repair {
             new_key_[key] = report_.path;
             began_again_ = began_again_ || (last_ && record.index <= last_->index);
             last_ = record;
-            if (Status status = file_->Put(ScanTable::kPath, report_.path++, record.Encode());
-                !status.ok())
-                return status;
+            file_->Put(ScanTable::kPath, report_.path++, record.Encode());
         }
         if (unplaced > 0)
             report_.lost.push_back(fmt::format("{} poses whose keyframe is lost", unplaced));
-        return Status::Ok();
     }
 
-    Status CopyKeyframes() {
+    void CopyKeyframes() {
         ScanRow row;
-        if (!meta_.loops) return Status::Ok();
         for (const auto& [key, poses] : poses_) {
-            if (!Load(ScanTable::kKeyframes, key, row)) continue;
-            if (Status status = file_->Put(ScanTable::kKeyframes, key, row.data); !status.ok())
-                return status;
-            if (Status status = file_->Put(ScanTable::kPoses, key, poses.Encode()); !status.ok())
-                return status;
+            if (!found_.Load(ScanTable::kKeyframes, key, row)) continue;
+            file_->Put(ScanTable::kKeyframes, key, row.data);
+            file_->Put(ScanTable::kPoses, key, poses.Encode());
             ++report_.keyframes;
         }
-        return Status::Ok();
     }
 
-    Status CopyFrames() {
+    void CopyFrames() {
         ScanRow row;
-        for (const auto& [key, place] : rows(ScanTable::kFrames)) {
+        for (const auto& [key, place] : found_.rows(ScanTable::kFrames)) {
             FrameRecord record;
-            if (!new_key_.contains(key) || !Load(ScanTable::kFrames, key, row) ||
+            if (!new_key_.contains(key) || !found_.Load(ScanTable::kFrames, key, row) ||
                 !record.Decode(row.data))
                 continue;
             if (!meta_.loops) record.in_store = false;
             if (record.in_store && record.stored.keyframe >= static_cast<int>(poses_.size()))
                 continue;
             const Result<Bytes> bytes = record.Encode();
-            if (!bytes.ok()) return bytes.status();
-            if (Status status = file_->Put(ScanTable::kFrames, new_key_[key], bytes.value());
-                !status.ok())
-                return status;
+            if (!bytes.ok()) return file_->Abandon(bytes.status());
+            file_->Put(ScanTable::kFrames, new_key_[key], bytes.value());
             ++report_.frames;
         }
-        return Status::Ok();
     }
 
-    Status CopyState() {
+    void CopyState() {
         ScanRow row;
         ScanProgress progress;
-        const auto load = [&](ScanStateKey key) {
-            return Load(ScanTable::kState, static_cast<std::int64_t>(key), row);
-        };
-        if (!load(ScanStateKey::kProgress) || !progress.Decode(row.data)) {
+        if (!found_.Load(ScanStateKey::kProgress, row) || !progress.Decode(row.data)) {
             report_.lost.push_back("the progress record");
             progress = {};
             progress.fused_frames =
@@ -199,24 +178,19 @@ class Repair {
         progress.frames = report_.path;
         progress.labels = labelled_;
         // Then the last index is of another source than the first session's.
-        if (began_again_ && !load(ScanStateKey::kSource)) {
+        if (began_again_ && !found_.Load(ScanStateKey::kSource, row)) {
             report_.lost.push_back("the name of the last session's source");
             progress.last_index = -1;
         }
-        const auto put = [&](ScanStateKey key, std::span<const std::uint8_t> data) {
-            return file_->Put(ScanTable::kState, static_cast<std::int64_t>(key), data);
-        };
-        if (Status status = put(ScanStateKey::kProgress, progress.Encode()); !status.ok())
-            return status;
+        file_->Put(ScanStateKey::kProgress, progress.Encode());
         for (const ScanStateKey key :
              {ScanStateKey::kTracking, ScanStateKey::kLabels, ScanStateKey::kSource})
-            if (load(key)) {
-                const Bytes data(row.data.begin(), row.data.end());
-                if (Status status = put(key, data); !status.ok()) return status;
+            if (found_.Load(key, row)) {
+                file_->Put(key, row.data);
             } else if (key == ScanStateKey::kTracking) {
                 report_.lost.push_back("the tracking state at the end");
             }
-        return meta_.loops ? put(ScanStateKey::kLoops, loops_.Encode()) : Status::Ok();
+        if (meta_.loops) file_->Put(ScanStateKey::kLoops, loops_.Encode());
     }
 
     FoundRows found_;

@@ -1,7 +1,5 @@
 #include "scan/scan_writer.h"
 
-#include <algorithm>
-
 #include "io/image_io.h"
 #include "io/jpeg_encoder.h"
 
@@ -22,75 +20,48 @@ void ScanCheckpoint::Clear() {
 }
 
 Status ScanWriter::Write(const ScanCheckpoint& checkpoint) {
-    if (Status status = file_->Begin(); !status.ok()) return status;
-    if (Status status = PutRows(checkpoint); !status.ok()) return status;
+    file_->Begin();
+    PutRows(checkpoint);
     return file_->Commit(checkpoint.finished);
 }
 
-Status ScanWriter::PutRows(const ScanCheckpoint& c) {
+void ScanWriter::PutRows(const ScanCheckpoint& c) {
     if (c.clear_all)
         for (const ScanTable table : kScanTables)
-            if (table != ScanTable::kMeta && table != ScanTable::kState)
-                if (Status status = file_->Clear(table); !status.ok()) return status;
-    if (c.clear_blocks && !c.clear_all)
-        if (Status status = file_->Clear(ScanTable::kBlocks); !status.ok()) return status;
+            if (table != ScanTable::kMeta && table != ScanTable::kState) file_->Clear(table);
+    if (c.clear_blocks && !c.clear_all) file_->Clear(ScanTable::kBlocks);
     if (c.stored) {
         const auto put = [this](std::int64_t key, std::span<const std::uint8_t> data) {
-            return file_->Put(ScanTable::kBlocks, key, data);
+            file_->Put(ScanTable::kBlocks, key, data);
+            return file_->error();
         };
-        if (Status status = c.stored->ForEachRow(put); !status.ok()) {
-            file_->Rollback();
-            return status;
-        }
+        if (Status status = c.stored->ForEachRow(put); !status.ok()) return file_->Abandon(status);
     }
     // In key order, so that each page is touched once.
-    order_.clear();
-    for (std::size_t i = 0; i < c.blocks.size(); ++i)
-        order_.emplace_back(BlockKey(c.blocks.coords[i]), i);
-    std::ranges::sort(order_);
-    for (const auto& [block_key, i] : order_)
-        if (Status status = file_->Put(ScanTable::kBlocks, block_key, codec_.Encode(c.blocks, i));
-            !status.ok())
-            return status;
+    for (const auto& [key, i] : c.blocks.ByKey())
+        file_->Put(ScanTable::kBlocks, key, codec_.Encode(c.blocks, i));
     for (const auto& [number, record] : c.path)
-        if (Status status = file_->Put(ScanTable::kPath, number, record.Encode()); !status.ok())
-            return status;
+        file_->Put(ScanTable::kPath, number, record.Encode());
     // Skips images that cannot be read or encoded. A map that is fused again lacks their frame, and
     // after a resume no camera is found at its keyframe.
     const auto put_frame = [this](std::int64_t number, const Result<Bytes>& record) {
-        return record.ok() ? file_->Put(ScanTable::kFrames, number, record.value()) : Status::Ok();
+        if (record.ok()) file_->Put(ScanTable::kFrames, number, record.value());
     };
-    for (const auto& [number, record] : c.frames)
-        if (Status status = put_frame(number, record.Encode()); !status.ok()) return status;
-    for (const auto& [number, frame] : c.raw_frames)
-        if (Status status = put_frame(number, Compress(*frame)); !status.ok()) return status;
+    for (const auto& [number, record] : c.frames) put_frame(number, record.Encode());
+    for (const auto& [number, frame] : c.raw_frames) put_frame(number, Compress(*frame));
     for (const Keyframe& keyframe : c.keyframes)
-        if (Status status =
-                file_->Put(ScanTable::kKeyframes, keyframe.id, EncodeKeyframe(keyframe));
-            !status.ok())
-            return status;
+        file_->Put(ScanTable::kKeyframes, keyframe.id, EncodeKeyframe(keyframe));
     for (const auto& [number, poses] : c.poses)
-        if (Status status = file_->Put(ScanTable::kPoses, number, poses.Encode()); !status.ok())
-            return status;
-    if (Status status = PutState(ScanStateKey::kProgress, c.progress.Encode()); !status.ok())
-        return status;
+        file_->Put(ScanTable::kPoses, number, poses.Encode());
+    file_->Put(ScanStateKey::kProgress, c.progress.Encode());
     if (!c.source.empty())
-        if (Status status =
-                PutState(ScanStateKey::kSource, Bytes(c.source.begin(), c.source.end()));
-            !status.ok())
-            return status;
+        file_->Put(ScanStateKey::kSource, Bytes(c.source.begin(), c.source.end()));
     // An empty state is none. What is not given is none after a reset; else it stays.
     const Bytes loops = c.loops ? c.loops->Encode() : Bytes();
     for (const auto& [state_key, bytes] : {std::pair{ScanStateKey::kTracking, &c.tracking},
                                            {ScanStateKey::kLabels, &c.labels},
                                            {ScanStateKey::kLoops, &loops}})
-        if (!bytes->empty() || c.clear_all)
-            if (Status status = PutState(state_key, *bytes); !status.ok()) return status;
-    return Status::Ok();
-}
-
-Status ScanWriter::PutState(ScanStateKey key, const Bytes& bytes) {
-    return file_->Put(ScanTable::kState, static_cast<std::int64_t>(key), bytes);
+        if (!bytes->empty() || c.clear_all) file_->Put(state_key, *bytes);
 }
 
 Result<Bytes> ScanWriter::Compress(const Frame& frame) {

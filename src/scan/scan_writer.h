@@ -45,17 +45,14 @@ class ScanWriter {
     // On error, the file stays valid as it was before, and nothing more should be written.
     Status Write(const ScanCheckpoint& checkpoint);
     void Close() { file_->Close(); }
-    const ScanFile& file() const { return *file_; }
 
   private:
-    Status PutRows(const ScanCheckpoint& checkpoint);
-    Status PutState(ScanStateKey key, const Bytes& bytes);
+    void PutRows(const ScanCheckpoint& checkpoint);
     Result<Bytes> Compress(const Frame& frame);
 
     std::unique_ptr<ScanFile> file_;
     double depth_units_per_m_;
     BlockCodec codec_;
-    std::vector<std::pair<std::int64_t, std::size_t>> order_;
     PngEncoder png_;
     Image<std::uint16_t> raw_depth_;
 };

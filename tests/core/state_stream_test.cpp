@@ -45,6 +45,29 @@ TEST(StateStream, EveryCutIsFoundAndSoIsARest) {
     EXPECT_FALSE(GetEverything(bytes));
 }
 
+TEST(StateStream, AListOfFieldsIsItsFieldsOneByOne) {
+    const std::int32_t number = -7;
+    const double share = 0.5;
+    const std::vector<std::uint16_t> values{3, 4, 5};
+    std::vector<std::uint8_t> bytes;
+    StateWriter state(bytes);
+    state.Put(number);
+    state.Put(share);
+    state.PutArray(std::span<const std::uint16_t>(values));
+    EXPECT_EQ(Encoded(std::tie(number, share, values)), bytes);
+    std::int32_t got_number = 0;
+    double got_share = 0;
+    std::vector<std::uint16_t> got_values;
+    const auto fields = std::tie(got_number, got_share, got_values);
+    StateReader reader(bytes);
+    EXPECT_TRUE(reader.Get(fields) && reader.at_end());
+    EXPECT_EQ(fields, std::tie(number, share, values));
+    EXPECT_TRUE(AllFinite(fields));
+    got_share = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(AllFinite(fields));
+    EXPECT_FALSE(StateReader(std::span(bytes).first(9)).Get(fields));
+}
+
 TEST(StateStream, CountsBeyondTheBytesAllocateNothing) {
     std::vector<std::uint8_t> bytes;
     StateWriter(bytes).Put(std::numeric_limits<std::uint64_t>::max());

@@ -163,7 +163,7 @@ void ReadRecord(std::span<const std::uint8_t> bytes) {
     }
     BlockCodec codec;
     BlockCopies blocks;
-    if (codec.Decode(rest, {1, 2, 3}, blocks))
+    if (codec.Decode(BlockKey({1, 2, 3}), rest, blocks))
         TESSERA_CHECK(blocks.size() == 1 && blocks.field.size() == kBlockVoxels, "not one block");
 }
 

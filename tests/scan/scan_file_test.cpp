@@ -99,12 +99,13 @@ TEST(ScanFile, ATransactionThatIsNotCommittedIsNotThere) {
         auto file = ScanFile::Create(folder / "a.scan", SmallMeta().Encode());
         ASSERT_TRUE(file.ok());
         const Bytes data(100, 7);
-        ASSERT_TRUE(file.value()->Begin().ok());
-        ASSERT_TRUE(file.value()->Put(ScanTable::kPath, 0, data).ok());
+        file.value()->Begin();
+        file.value()->Put(ScanTable::kPath, 0, data);
         ASSERT_TRUE(file.value()->Commit(false).ok());
-        ASSERT_TRUE(file.value()->Begin().ok());
-        ASSERT_TRUE(file.value()->Clear(ScanTable::kPath).ok());
-        ASSERT_TRUE(file.value()->Put(ScanTable::kPath, 5, data).ok());
+        file.value()->Begin();
+        file.value()->Clear(ScanTable::kPath);
+        file.value()->Put(ScanTable::kPath, 5, data);
+        ASSERT_TRUE(file.value()->error().ok());
     }
     auto file = ScanFile::OpenToRead(folder / "a.scan");
     ASSERT_TRUE(file.ok()) << file.message();
@@ -117,6 +118,32 @@ TEST(ScanFile, ATransactionThatIsNotCommittedIsNotThere) {
                            })
                     .ok());
     EXPECT_EQ(keys, std::vector<std::int64_t>{0});
+}
+
+TEST(ScanFile, TheFirstErrorGivesACheckpointUpAndTheNextCanBeWritten) {
+    TempFolder folder;
+    auto file = ScanFile::Create(folder / "a.scan", SmallMeta().Encode());
+    ASSERT_TRUE(file.ok()) << file.message();
+    const Bytes data(100, 7);
+    file.value()->Begin();
+    file.value()->Put(ScanTable::kPath, 0, data);
+    file.value()->Abandon(Status::Error("first"));
+    file.value()->Abandon(Status::Error("second"));
+    file.value()->Put(ScanTable::kPath, 1, data);
+    file.value()->Clear(ScanTable::kMeta);
+    EXPECT_EQ(file.value()->Commit(false).message(), "first");
+    file.value()->Begin();
+    file.value()->Put(ScanTable::kPath, 2, data);
+    EXPECT_TRUE(file.value()->Commit(false).ok());
+    std::vector<std::int64_t> keys;
+    for (const ScanTable table : {ScanTable::kMeta, ScanTable::kPath}) {
+        const Status read = file.value()->Read(table, [&](const ScanRow& row) {
+            keys.push_back(row.key);
+            return Status::Ok();
+        });
+        EXPECT_TRUE(read.ok()) << read.message();
+    }
+    EXPECT_EQ(keys, (std::vector<std::int64_t>{0, 2}));
 }
 
 // Rows that SQLite accepts but that differ from the last checkpoint.
@@ -201,7 +228,8 @@ TEST(ScanFile, WritingToAnOlderFormatMakesItTheNewest) {
     const auto version = [&] { return ScanFile::OpenToRead(folder / "a.scan").value()->version(); };
     EXPECT_EQ(version(), 1);
     auto file = std::move(ScanFile::OpenToWrite(folder / "a.scan").value());
-    ASSERT_TRUE(file->Begin().ok());
+    file->Begin();
+    ASSERT_TRUE(file->error().ok());
     EXPECT_EQ(version(), 1);
     ASSERT_TRUE(file->Commit(true).ok());
     file->Close();

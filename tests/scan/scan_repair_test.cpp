@@ -17,16 +17,15 @@ class ScanRepair : public testing::Test {
         Result<std::unique_ptr<ScanFile>> opened = ScanFile::OpenToWrite(folder / "a.scan");
         ASSERT_TRUE(opened.ok()) << opened.message();
         file = std::move(opened.value());
-        ASSERT_TRUE(file->Begin().ok());
+        file->Begin();
+        ASSERT_TRUE(file->error().ok());
     }
     void Put(ScanTable table, std::int64_t key, const Bytes& data) {
-        ASSERT_TRUE(file->Put(table, key, data).ok());
-    }
-    void PutState(ScanStateKey key, const Bytes& data) {
-        Put(ScanTable::kState, static_cast<std::int64_t>(key), data);
+        file->Put(table, key, data);
+        ASSERT_TRUE(file->error().ok());
     }
     void Commit(const ScanProgress& progress) {
-        PutState(ScanStateKey::kProgress, progress.Encode());
+        file->Put(ScanStateKey::kProgress, progress.Encode());
         ASSERT_TRUE(file->Commit(true).ok());
         file->Close();
     }
@@ -57,7 +56,7 @@ class ScanRepair : public testing::Test {
 // SQLite writes pages of a large checkpoint to the journal before it is complete.
 TEST_F(ScanRepair, IgnoresACheckpointThatWasNotCompleted) {
     Open();
-    ASSERT_TRUE(file->Clear(ScanTable::kBlocks).ok());
+    file->Clear(ScanTable::kBlocks);
     for (int key = 0; key < 1400; ++key) Put(ScanTable::kBlocks, key, Bytes(15'000, 1));
     ASSERT_GT(ReadBytes(folder / "a.scan-wal").size(), 1'000'000u);
     CopyOpenFile();
@@ -71,7 +70,7 @@ TEST_F(ScanRepair, IgnoresTheRemainsOfAnEarlierJournal) {
     constexpr std::size_t kFrame = kFrameHeader + kScanPageBytes;
     Open();
     const Bytes tracking(50'000, 7);  // on several pages
-    PutState(ScanStateKey::kTracking, tracking);
+    file->Put(ScanStateKey::kTracking, tracking);
     ASSERT_TRUE(file->Commit(false).ok());
     std::string remains = ReadBytes(folder / "a.scan-wal").substr(kJournalHeader);
     ASSERT_EQ(remains.size() % kFrame, 0u);

@@ -1,4 +1,4 @@
-#include "scan/shown_scan.h"
+#include "scan/scan_content.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ class KilledRunsScan : public testing::Test {
 };
 
 TEST_F(KilledRunsScan, ShowsOnlyWhatIsInPlace) {
-    RemoveHiddenBlocks(scan);
+    scan.RemoveHiddenBlocks();
     EXPECT_TRUE(Has(0) && Has(3) && Has(-200));
     EXPECT_FALSE(Has(1002));
     EXPECT_FALSE(Has(2003));
@@ -70,11 +70,11 @@ TEST_F(KilledRunsScan, WithoutLoopClosureAllIsShown) {
     scan.keyframes.clear();
     scan.left_out.clear();
     scan.path.erase(scan.path.begin(), scan.path.begin() + 4);
-    RemoveHiddenBlocks(scan);
+    scan.RemoveHiddenBlocks();
     EXPECT_EQ(scan.map->count(), 5);
     EXPECT_EQ(scan.Path().size(), 2u);
     scan.map.reset();
-    RemoveHiddenBlocks(scan);  // read without its map
+    scan.RemoveHiddenBlocks();  // read without its map
 }
 
 }  // namespace
