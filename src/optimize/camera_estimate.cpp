@@ -45,6 +45,10 @@ bool CameraEstimate::vignetting_shown() const {
            vignetting > kLeastVignetting && vignetting < kMostVignetting;
 }
 
+bool CameraEstimate::vignetting_known(double share) const {
+    return vignetting_sigma > 0 && kDeviations * vignetting_sigma < share;
+}
+
 bool CameraEstimate::centre_shown() const {
     const double floor_px = kCentreFloor * given.width;
     return misfit_found < misfit_given &&

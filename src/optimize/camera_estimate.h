@@ -32,6 +32,8 @@ struct CameraEstimate {
     bool plausible() const;
     // True if the corners are clearly darker or brighter.
     bool vignetting_shown() const;
+    // True if none of this size could go unseen.
+    bool vignetting_known(double share) const;
     // True if the read-out time differs from the given one. Check first that the focal length is
     // plausible, if one was given: a fit that went astray has a wrong read-out time, too.
     bool shutter_shown(double given_readout_s) const;

@@ -7,35 +7,17 @@
 #include <fstream>
 #include <vector>
 
-#include "io/image_io.h"
 #include "optimize/box_view.h"
 #include "optimize/distorted_room.h"
 #include "optimize/painted_room.h"
 #include "optimize/squares_view.h"
+#include "run/recorded_views.h"
 #include "support/temp_folder.h"
 
 namespace tessera {
 namespace {
 
 constexpr int kViews = 16;
-
-void WriteViews(const TempFolder& folder, const std::vector<Frame>& frames,
-                const CameraCalibration& camera) {
-    for (const char* name : {"depth", "rgb"}) std::filesystem::create_directories(folder / name);
-    std::ofstream depths(folder / "depth.txt"), colours(folder / "rgb.txt");
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        const Frame& frame = frames[i];
-        Image<std::uint16_t> stored(frame.depth_m.width(), frame.depth_m.height());
-        std::transform(frame.depth_m.data(), frame.depth_m.data() + stored.size(), stored.data(),
-                       [](float z_m) { return static_cast<std::uint16_t>(1000 * z_m); });
-        const std::string number = std::to_string(i) + ".png";
-        ASSERT_TRUE(WriteDepthImage(folder / ("depth/" + number), stored).ok());
-        ASSERT_TRUE(WriteColourImage(folder / ("rgb/" + number), frame.colour).ok());
-        depths << 0.1 * static_cast<double>(i) << " depth/" << number << '\n';
-        colours << 0.1 * static_cast<double>(i) << " rgb/" << number << '\n';
-    }
-    std::ofstream(folder / "camera.yaml") << CameraFileText(camera);
-}
 
 // Colour lies `x`, `y` pixels beside its depth.
 void WriteBoxViews(const TempFolder& folder, int x, int y) {
