@@ -7,7 +7,6 @@
 #include "core/stopwatch.h"
 #include "io/mesh_io.h"
 #include "system/run_control.h"
-#include "system/scan_restore.h"
 
 namespace tessera {
 
@@ -23,30 +22,40 @@ FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Ba
     label_settings_.prediction = config.labels.prediction;
 }
 
-Status FrameMapping::StartScan(ScanPlan plan) {
+Result<std::optional<LoopCloser::Memory>> FrameMapping::StartScan(ScanPlan plan) {
     only_localise_ = plan.only_localise();
-    continued_ = plan.resumed.has_value();
-    if (only_localise_) {
-        loops_ = TakeLoopMemory(*plan.resumed);
-        return RestoreMap({}, *plan.resumed, stage_);
+    std::optional<ScanContent> resumed = std::exchange(plan.resumed, std::nullopt);
+    continued_ = resumed.has_value();
+    if (plan.file)
+        scan_.emplace(std::move(plan), config_.scan, wait_, config_.loops.enabled, notices_);
+    std::optional<LoopCloser::Memory> learnt;
+    if (resumed) {
+        if (Status status = Resume(*resumed); !status.ok()) return status;
+        learnt = TakeLoopMemory(*resumed);
     }
-    scan_.emplace(std::move(plan), config_.scan, wait_, config_.loops.enabled, notices_);
-    if (Status status = scan_->Resume(stage_); !status.ok()) return status;
-    return StartPaging();
+    if (Status status = StartPaging(); !status.ok()) return status;
+    return learnt;
+}
+
+Status FrameMapping::Resume(ScanContent& scan) {
+    if (scan_) scan_->Resume(scan.progress, *scan.map);
+    stage_.Resume(std::move(scan.map), scan.progress.fused_frames);
+    StateReader labels(scan.labels);
+    if (!scan.labels.empty() && !stage_.LoadLabels(labels))
+        return Status::Error(scan_path() +
+                             ": its labels have other classes; give the same --labels and "
+                             "labels.classes as when the scan was created");
+    return Status::Ok();
 }
 
 Status FrameMapping::StartPaging() {
-    if (!config_.pipeline.paging.enabled()) return Status::Ok();
+    if (!scan_ || !config_.pipeline.paging.enabled()) return Status::Ok();
     Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_->path());
     if (!reader.ok()) return reader.status();
     paging_ = std::make_unique<PagingStage>(config_.pipeline, source_.camera,
                                             std::make_unique<Pager>(std::move(reader.value())),
                                             wait_, notices_);
     return Status::Ok();
-}
-
-std::optional<LoopCloser::Memory> FrameMapping::TakeLoops() {
-    return scan_ ? scan_->TakeLoops() : std::exchange(loops_, std::nullopt);
 }
 
 // ---- A frame.

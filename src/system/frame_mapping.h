@@ -28,11 +28,10 @@ class FrameMapping {
                  ViewerLink* viewer, bool wait, Notices& notices);
 
     // ---- Before the first frame.
-    // Saves a scan from now on, unless the camera is only to be localised. Restores the map of one
-    // that is continued.
-    Status StartScan(ScanPlan plan);
-    // After StartScan: the loop closure state to continue with. Nothing for a new file.
-    std::optional<LoopCloser::Memory> TakeLoops();
+    // Saves a scan from now on, unless the camera is only to be localised or the plan is empty.
+    // Restores the map of one that is resumed, and returns the loop closure state to continue with.
+    Result<std::optional<LoopCloser::Memory>> StartScan(ScanPlan plan);
+    bool only_localise() const { return only_localise_; }
 
     // ---- A frame, in this order.
     // Loads what the camera may see near its last pose. Lockstep calls it before tracking.
@@ -97,6 +96,7 @@ class FrameMapping {
     bool SendFinalMesh() { return feed_.SendFinalMesh(stage_); }
 
   private:
+    Status Resume(ScanContent& scan);
     Status StartPaging();
     TriangleMesh MakeFinalMesh(Status& status, bool keep_map);
     struct SavedMesh {
@@ -113,9 +113,8 @@ class FrameMapping {
     bool only_localise_ = false, continued_ = false;  // a scan
     Notices& notices_;
     MappingStage stage_;
-    std::optional<ScanStage> scan_;            // set if a scan is saved
-    std::optional<LoopCloser::Memory> loops_;  // of a scan in which the camera is only localised
-    std::unique_ptr<PagingStage> paging_;      // null without a memory limit
+    std::optional<ScanStage> scan_;        // set if a scan is saved
+    std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     // With a window: frames so far, in case the user starts saving a scan mid-run, or at the end
     // another one.
     std::vector<PathRecord> past_;

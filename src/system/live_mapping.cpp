@@ -26,13 +26,11 @@ Status LiveMapping::Start(Labelling labelling, OpenDetectorFunction open_detecto
         labels = LoopCloser::Labels{config_.labels, labelling.classes};
         StartLabels(std::move(labelling));
     }
-    only_localise_ = plan.only_localise();
-    if (plan.file || only_localise_) {
-        links_.saving.store(!only_localise_);
-        if (Status status = life_.StartScan(std::move(plan)); !status.ok()) return status;
-        if (!one_thread_ && life_.stage().map().size() > 1) SendWholeMap();
-    }
-    if (config_.loops.enabled) StartLoops(std::move(labels));
+    Result<std::optional<LoopCloser::Memory>> learnt = life_.StartScan(std::move(plan));
+    if (!learnt.ok()) return learnt.status();
+    links_.saving.store(life_.saving());
+    if (!one_thread_ && life_.stage().map().size() > 1) SendWholeMap();
+    if (config_.loops.enabled) StartLoops(std::move(labels), std::move(learnt.value()));
     if (!one_thread_)
         worker_.emplace(
             LiveLinks::kTasks,
@@ -75,15 +73,16 @@ void LiveMapping::SendWholeMap() {
                   "no room for the first update of the map");
 }
 
-void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels) {
+void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels,
+                             std::optional<LoopCloser::Memory> resumed) {
     LoopThread::Settings settings{config_.EffectiveLoops(),
                                   FieldSettingsOf(config_.pipeline, source_.camera),
                                   source_.depth_units_per_m,
                                   std::move(labels),
                                   life_.saving(),
-                                  life_.TakeLoops()};
+                                  std::move(resumed)};
     settings.tracked_layers = config_.pipeline.trackers.layers();
-    settings.only_answers = only_localise_;
+    settings.only_answers = life_.only_localise();
     if (life_.saving())
         settings.make_pager = RebuildPagers(config_.pipeline, source_.camera, life_.scan_path());
     loops_ = std::make_unique<LoopThread>(
@@ -187,7 +186,7 @@ void LiveMapping::Offer(MappingTask& task) {
             life_.paging()->ReleaseHold(report.index);  // no detections are to come
         links_.frames.Give(std::move(needless));
     }
-    if (loops_ && report.tracked() && !only_localise_)
+    if (loops_ && report.tracked() && !life_.only_localise())
         loops_->Offer(std::move(task.tracked), std::move(task.frame), version());
     links_.frames.Give(std::move(task.frame));
     links_.tracked_frames.Give(std::move(task.tracked));
@@ -222,7 +221,7 @@ void LiveMapping::Reset() {
 void LiveMapping::End() {
     if (labelling_ && !links_.quit.load()) labelling_->Finish();
     while (labelling_ && labelling_->has_answer()) TakeLabels();
-    if (loops_ && !links_.quit.load() && !only_localise_) {
+    if (loops_ && !links_.quit.load() && !life_.only_localise()) {
         const auto take_all = [this] {
             LoopThread::Update update;
             while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);

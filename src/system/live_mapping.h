@@ -33,7 +33,6 @@ class LiveMapping {
     // Call after the last task: maps what waits, closes pending loops and completes the scan file.
     void Finish();
     LoopThread* loops() const { return loops_.get(); }  // null without loop closure
-    bool only_localise() const { return only_localise_; }
     // With a device: the map to track in.
     const BlockMap& MapFor(const TrackingStage& tracking) const { return life_.MapFor(tracking); }
 
@@ -45,7 +44,8 @@ class LiveMapping {
   private:
     void StartLabels(Labelling labelling);
     void ChangeDetector(const std::string& name);
-    void StartLoops(std::optional<LoopCloser::Labels> labels);
+    void StartLoops(std::optional<LoopCloser::Labels> labels,
+                    std::optional<LoopCloser::Memory> resumed);
     void SendWholeMap();
 
     bool HasAnswers() const;
@@ -72,7 +72,6 @@ class LiveMapping {
     const bool one_thread_;
     LiveLinks& links_;
     FrameMapping life_;
-    bool only_localise_ = false;                  // set before the threads start
     int world_ = 0;                               // number of resets
     std::vector<Eigen::Isometry3d> corrections_;  // T_new_old of each correction in this world
     std::optional<double> last_detection_s_;      // stamp of the last frame offered to labelling

@@ -63,8 +63,6 @@ class LockstepEngine : public Engine {
     std::optional<LoopStage> loops_;  // set if loop closure is on
     bool loops_on_ = true;            // the user may switch it off meanwhile
     std::optional<LoopCloser::Labels> loop_labels_;
-    bool only_localise_ = false;
-    std::string scan_path_;  // of a scan saved from the start; else empty
     RecorderThread recorder_;
     FrameLabelling labelling_;
     std::unique_ptr<FrameReader> reader_;  // null after TakeMesh

@@ -1,5 +1,5 @@
 // What loop closure has learnt since the last query, as a message for the thread that writes the
-// scan file.
+// scan file, and what it continues with when that is read again.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "optimize/loop_closer.h"
-#include "scan/scan_records.h"
+#include "scan/scan_content.h"
 
 namespace tessera {
 
@@ -21,6 +21,9 @@ struct LoopChanges {
     // If there is more of it: the edges are long. The frames tell of newer ordinals by themselves.
     std::optional<LoopProgress> progress;
 };
+
+// Takes keyframes and stored frames out of `scan`.
+LoopCloser::Memory TakeLoopMemory(ScanContent& scan);
 
 // Owner thread only: the closer's. Without Begin, the first Take reports all that the closer has,
 // so that a scan which is saved in the middle of a run is whole at once.

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/check.h"
-#include "system/scan_restore.h"
 
 namespace tessera {
 namespace {
@@ -24,26 +23,23 @@ ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool lo
     : config_(config),
       wait_(wait),
       path_(plan.file->path()),
-      saved_(plan.resumed.has_value()),
       source_(plan.source_name),
-      resumed_(std::move(plan.resumed)),
       notices_(notices),
       writer_(std::make_unique<ScanWriter>(std::move(plan.file), plan.depth_units_per_m)),
       pending_(pool_.Take()),
       path_log_(loops),
       writing_(1, [this](std::unique_ptr<ScanCheckpoint>& job) { Write(std::move(job)); }) {}
 
-Status ScanStage::Resume(MappingStage& mapping) {
-    if (!resumed_) return Status::Ok();
-    ScanContent& scan = *resumed_;
-    progress_ = scan.progress;
-    map_identity_ = scan.map->identity();
-    for (BlockId id = 0; id < scan.map->size(); ++id)
-        seen_revision_.push_back(scan.map->revision(id));
-    if (Status status = RestoreMap(path_, scan, mapping); !status.ok()) return status;
-    loops_ = TakeLoopMemory(scan);
-    resumed_.reset();
-    return Status::Ok();
+void ScanStage::Resume(const ScanProgress& progress, const BlockMap& map) {
+    saved_ = true;
+    progress_ = progress;
+    MarkSaved(map);
+}
+
+void ScanStage::MarkSaved(const BlockMap& map) {
+    map_identity_ = map.identity();
+    seen_revision_.clear();
+    for (BlockId id = 0; id < map.size(); ++id) seen_revision_.push_back(map.revision(id));
 }
 
 void ScanStage::AddFrame(const Frame& frame, const TrackedFrame& tracked,
@@ -146,9 +142,7 @@ void ScanStage::AddBlocks(const MappingStage& mapping) {
 void ScanStage::Replaced(const BlockMap& map, std::shared_ptr<const CubeScratch> store) {
     pending_->clear_blocks = true;
     pending_->stored = std::move(store);
-    map_identity_ = map.identity();
-    seen_revision_.clear();
-    for (BlockId id = 0; id < map.size(); ++id) seen_revision_.push_back(map.revision(id));
+    MarkSaved(map);
     last_stamp_s_.reset();
 }
 

@@ -1,6 +1,5 @@
 // Keeps a scan file up to date during a run: tracks changes and builds checkpoints, which a thread
-// of its own writes, so that neither compression nor the disk delays anyone. Also restores a
-// resumed scan's content.
+// of its own writes, so that neither compression nor the disk delays anyone.
 #pragma once
 
 #include <atomic>
@@ -30,12 +29,8 @@ class ScanStage {
     ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool loops, Notices& notices);
     ~ScanStage() { Stop(); }
 
-    // Restores the map and labels of a resumed file. Call before the first frame. Does nothing for
-    // a new file. Errors name the file.
-    Status Resume(MappingStage& mapping);
-    // Call after Resume: the loop closure state to continue with. Nothing for a new file.
-    std::optional<LoopCloser::Memory> TakeLoops() { return std::exchange(loops_, std::nullopt); }
-
+    // Call before the first frame: the file has this map already.
+    void Resume(const ScanProgress& progress, const BlockMap& map);
     // For a new file started during a run: adds the earlier frames. Call before the first AddFrame.
     void AddPast(const std::vector<PathRecord>& path);
     // Adds a frame after its fusion and labelling, with TrackedFrame::tracking_state.
@@ -84,16 +79,15 @@ class ScanStage {
     void AddRaw(const Frame& frame);
     void Checkpoint(const MappingStage& mapping, bool finished);
     void AddBlocks(const MappingStage& mapping);
+    void MarkSaved(const BlockMap& map);
     void Write(std::unique_ptr<ScanCheckpoint> checkpoint);
     void Stop();
 
     ScanConfig config_;
     const bool wait_;
     const std::string path_;
-    bool saved_;                          // the file has content
-    const std::string source_;            // empty for a new file, whose meta row has it
-    std::optional<ScanContent> resumed_;  // until Resume has restored it
-    std::optional<LoopCloser::Memory> loops_;
+    bool saved_ = false;        // the file has content
+    const std::string source_;  // empty for a new file, whose meta row has it
     Notices& notices_;
     std::unique_ptr<ScanWriter> writer_;  // the thread's; null after Stop
     Pool<ScanCheckpoint> pool_;

@@ -4,7 +4,7 @@
 #include "optimize/scan_parts.h"
 #include "system/engine_fixture.h"
 #include "system/frame_list.h"
-#include "system/scan_restore.h"
+#include "system/loop_journal.h"
 
 namespace tessera {
 namespace {
