@@ -52,20 +52,20 @@ Status FrameMapping::StartPaging() {
     if (!scan_ || !config_.pipeline.paging.enabled()) return Status::Ok();
     Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_->path());
     if (!reader.ok()) return reader.status();
-    paging_ = std::make_unique<PagingStage>(config_.pipeline, source_.camera,
-                                            std::make_unique<Pager>(std::move(reader.value())),
-                                            wait_, notices_);
+    paging_ =
+        std::make_unique<PagingStage>(config_.pipeline, source_.camera, std::move(reader.value()),
+                                      wait_, stage_, *scan_, notices_);
     return Status::Ok();
 }
 
 // ---- A frame.
 
 void FrameMapping::Begin() {
-    if (paging_) paging_->BeginFrame(stage_, *scan_);
+    if (paging_) paging_->BeginFrame();
 }
 
 void FrameMapping::Fuse(TrackedFrame& tracked, FrameOutcome& outcome) {
-    if (paging_ && paging_->AfterTracking(tracked, stage_, *scan_)) outcome.fusion_dropped = true;
+    if (paging_ && paging_->AfterTracking(tracked)) outcome.fusion_dropped = true;
     stage_.Fuse(tracked);
 }
 
@@ -100,7 +100,7 @@ void FrameMapping::Save(FrameOutcome& outcome) {
     Stopwatch watch;
     if (scan_) scan_->SaveIfDue(stage_);
     outcome.scan_ms += watch.LapMs();
-    if (paging_) paging_->Release(stage_, *scan_);
+    if (paging_) paging_->Release();
 }
 
 void FrameMapping::Report(const Frame& frame, const TrackedFrame& tracked, FrameOutcome& outcome) {
@@ -120,13 +120,13 @@ void FrameMapping::PutMap(LoopCloser::Correction correction, std::uint32_t moved
     if (paging_) {
         const auto* pager = dynamic_cast<const RebuildPaging*>(correction.pager.get());
         TESSERA_CHECK(pager != nullptr, "a corrected map without the pager of its blocks");
-        paging_->Replaced(correction.T_new_old, *pager, stage_, *scan_);
+        paging_->Replaced(correction.T_new_old, *pager);
     }
     if (scan_) scan_->Move(correction.T_new_old);
 }
 
 void FrameMapping::LoadAround(const Eigen::Isometry3d& T_world_camera) {
-    if (paging_) paging_->LoadAround(T_world_camera, stage_, *scan_);
+    if (paging_) paging_->LoadAround(T_world_camera);
 }
 
 // ---- Commands of the user.
@@ -143,7 +143,7 @@ void FrameMapping::Reset() {
 void FrameMapping::SaveMesh(const std::string& path) {
     if (!mesh_writer_) mesh_writer_.emplace(1, [this](SavedMesh& saved) { WriteMesh(saved); });
     if (!mesh_writer_->idle()) return notices_.Tell("a mesh is still being saved; try again later");
-    SavedMesh saved{path, paging_ ? paging_->MissingText(*scan_) : "", stage_.Mesh()};
+    SavedMesh saved{path, paging_ ? paging_->MissingText() : "", stage_.Mesh()};
     if (saved.mesh.triangles.empty()) return notices_.Tell("no surface to save yet");
     TESSERA_CHECK(mesh_writer_->TryPush(std::move(saved)), "an idle thread has no room");
 }
@@ -215,12 +215,13 @@ TriangleMesh FrameMapping::TakeMesh(Status& status, bool keep_map) {
 TriangleMesh FrameMapping::MakeFinalMesh(Status& status, bool keep_map) {
     if (!paging_ || !paging_->paged()) return stage_.TakeMesh(keep_map);
     if (scan_->failed()) {
-        const Status returned = paging_->ReturnAll(stage_, *scan_);
+        const Status returned = paging_->ReturnAll();
         if (returned.ok()) return stage_.TakeMesh();
         if (status.ok()) status = returned;
         return {};
     }
     const std::string path = scan_->path();
+    paging_.reset();
     scan_.reset();  // its checkpoint buffers would have to fit beside the mesh
     ReturnFreeMemory();
     return stage_.TakeStoredMesh(path, status);

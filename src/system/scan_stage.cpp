@@ -169,9 +169,6 @@ bool ScanStage::Settle(const MappingStage& mapping, bool checkpoint) {
     return !failed();
 }
 
-// Their ids may soon be used by other blocks.
-void ScanStage::Released(std::span<const BlockId> blocks) { Touch(blocks); }
-
 void ScanStage::Returned(const BlockMap& map, std::span<const BlockId> blocks) {
     seen_revision_.resize(std::max(seen_revision_.size(), static_cast<std::size_t>(map.size())),
                           kNever);

@@ -47,7 +47,8 @@ class ScanStage {
     void Move(const Eigen::Isometry3d& T_new_old) { path_log_.Move(T_new_old); }
     // Writes a checkpoint if one is due, and no corrected map lacks what is still to follow it.
     void SaveIfDue(const MappingStage& mapping);
-    // Marks blocks whose labels have changed; that does not change a block's revision.
+    // Marks blocks whose labels have changed, which does not change a block's revision, or that
+    // were removed from the map: their ids may soon be used by other blocks.
     void Touch(std::span<const BlockId> blocks);
     // The current version of the block is in the file, or in a checkpoint being written.
     bool Has(const BlockMap& map, BlockId id) const {
@@ -61,8 +62,7 @@ class ScanStage {
     // Waits until all checkpoints are in the file. `checkpoint`: first makes another one. Returns
     // false if the file can no longer be written.
     bool Settle(const MappingStage& mapping, bool checkpoint);
-    // Blocks that are in the file and were removed from the map, and blocks that were loaded again.
-    void Released(std::span<const BlockId> blocks);
+    // Blocks that are in the file and were loaded again.
     void Returned(const BlockMap& map, std::span<const BlockId> blocks);
     const std::string& path() const { return path_; }
     // The map and the path start again.
