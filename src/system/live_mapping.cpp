@@ -29,7 +29,8 @@ Status LiveMapping::Start(Labelling labelling, OpenDetectorFunction open_detecto
     Result<std::optional<LoopCloser::Memory>> learnt = life_.StartScan(std::move(plan));
     if (!learnt.ok()) return learnt.status();
     links_.saving.store(life_.saving());
-    if (!one_thread_ && life_.stage().map().size() > 1) SendWholeMap();
+    if (!one_thread_ && life_.stage().map().size() > 1)
+        field_ = CopyLayers(life_.stage().map(), config_.pipeline.trackers.layers());
     if (config_.loops.enabled) StartLoops(std::move(labels), std::move(learnt.value()));
     if (!one_thread_)
         worker_.emplace(
@@ -64,13 +65,6 @@ void LiveMapping::ChangeDetector(const std::string& name) {
         labelling_ = std::make_unique<LabellingThread>(
             LabellingStage(config_.labels, source_.camera), open_detector_, links_.mapping);
     labelling_->Change(name);
-}
-
-void LiveMapping::SendWholeMap() {
-    MapUpdate whole{links_.deltas.Take(), 0, nullptr};
-    life_.stage().CollectWhole(*whole.delta);
-    TESSERA_CHECK(links_.map_updates.TryPush(std::move(whole)),
-                  "no room for the first update of the map");
 }
 
 void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels,

@@ -102,11 +102,6 @@ void MappingStage::ForgetDelta() {
     changed_.clear();
 }
 
-void MappingStage::CollectWhole(MapDelta& delta) {
-    tessera::CollectWhole(map(), config_.trackers.layers(), integrator_->revision(), delta);
-    ForgetDelta();
-}
-
 int MappingStage::UpdateMesher(Mesher& mesher, int budget_blocks) const {
     const int waiting = mesher.Update(*map_, budget_blocks, *block_mesher_);
     if (waiting == 0 || budget_blocks <= 0 || !mesher.updated().empty()) return waiting;

@@ -125,7 +125,14 @@ TEST_F(LiveMappingTest, TheSecondFrameOfAPartIsTrackedInTheMapOfTheFirst) {
     while (!links.map_updates.empty()) std::this_thread::yield();
     answer.first = true;
     answer.delta = std::make_unique<MapDelta>();
-    mapping.life().stage().CollectWhole(*answer.delta);
+    const BlockMap& map = mapping.life().stage().map();
+    std::vector<BlockChange> blocks;
+    std::vector<BlockId> changed;
+    for (BlockId id = 1; id < map.size(); ++id) {
+        blocks.push_back({id, false, map.coord(id)});
+        changed.push_back(id);
+    }
+    CollectDelta(map, config.pipeline.trackers.layers(), blocks, changed, 1, *answer.delta);
     ASSERT_TRUE(links.map_updates.TryPush(std::move(answer)));
     next();
     EXPECT_EQ(outcome.report.index, 1);
