@@ -49,7 +49,7 @@ Status FrameMapping::Resume(ScanContent& scan) {
 }
 
 Status FrameMapping::StartPaging() {
-    if (!scan_ || !config_.pipeline.paging.enabled()) return Status::Ok();
+    if (!scan_ || !config_.pipeline.has_memory_limit()) return Status::Ok();
     Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_->path());
     if (!reader.ok()) return reader.status();
     paging_ =

@@ -21,7 +21,7 @@ constexpr std::size_t kMostPerFrame = 8;  // live: maximum number of cubes inser
 PagingStage::PagingStage(const PipelineConfig& config, const PinholeCamera& camera,
                          std::unique_ptr<CubeReader> reader, bool wait, MappingStage& mapping,
                          ScanStage& scan, Notices& notices)
-    : limit_bytes_(config.paging.memory_limit_mb * 1e6),
+    : limit_bytes_(config.memory_limit_mb * 1e6),
       viewed_(config, camera),
       wait_(wait),
       mapping_(mapping),

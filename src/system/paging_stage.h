@@ -17,7 +17,6 @@
 #include "core/worker.h"
 #include "scan/cube_reader.h"
 #include "system/mapping_stage.h"
-#include "system/paging_config.h"
 #include "system/rebuild_paging.h"
 #include "system/scan_stage.h"
 #include "system/viewed_cubes.h"
