@@ -131,7 +131,8 @@ class MappingStage {
     // on the CPU.
     int UpdateMesher(Mesher& mesher, int budget_blocks) const;
     void Place(std::unique_ptr<BlockMap> map);
-    void ForgetDelta();
+    void BeginAnew();
+    void AddChanges(std::span<const BlockId> added, std::span<const BlockId> changed);
 
     PipelineConfig config_;
     PinholeCamera camera_;
