@@ -40,12 +40,13 @@ Result<std::optional<LoopCloser::Memory>> FrameMapping::StartScan(ScanPlan plan)
 Status FrameMapping::Resume(ScanContent& scan) {
     if (scan_) scan_->Resume(scan.progress, *scan.map);
     stage_.Resume(std::move(scan.map), scan.progress.fused_frames);
+    if (only_localise_ || scan.labels.empty()) return Status::Ok();
     StateReader labels(scan.labels);
-    if (!scan.labels.empty() && !stage_.LoadLabels(labels))
-        return Status::Error(scan_path() +
-                             ": its labels have other classes; give the same --labels and "
-                             "labels.classes as when the scan was created");
-    return Status::Ok();
+    return stage_.LoadLabels(labels)
+               ? Status::Ok()
+               : Status::Error(scan_->path() +
+                               ": its labels have other classes; give the same --labels and "
+                               "labels.classes as when the scan was created");
 }
 
 Status FrameMapping::StartPaging() {
@@ -123,6 +124,11 @@ void FrameMapping::PutMap(LoopCloser::Correction correction, std::uint32_t moved
         paging_->Replaced(correction.T_new_old, *pager);
     }
     if (scan_) scan_->Move(correction.T_new_old);
+}
+
+MakeMapPager FrameMapping::MakePagers() const {
+    return paging_ ? RebuildPagers(config_.pipeline, source_.camera, scan_->path())
+                   : MakeMapPager();
 }
 
 void FrameMapping::LoadAround(const Eigen::Isometry3d& T_world_camera) {

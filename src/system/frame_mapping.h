@@ -56,13 +56,16 @@ class FrameMapping {
     // Replaces the map by a corrected one. `moved_at`: if that was moved, the revision at which the
     // map in use was copied for it.
     void PutMap(LoopCloser::Correction correction, std::uint32_t moved_at = 0);
+    // After StartScan: keeps a corrected map in the making within the memory limit, if there is
+    // one.
+    MakeMapPager MakePagers() const;
     // Lockstep: loads what a camera at this pose may see.
     void LoadAround(const Eigen::Isometry3d& T_world_camera);
 
     // ---- Commands of the user.
     // Replaces `config.labels.prediction` from the next Label on.
     void Apply(const LabelSettings& settings) { label_settings_ = settings; }
-    bool labelling() const { return label_settings_.on; }
+    bool labelling() const { return stage_.has_labels() && label_settings_.on; }
     void Reset();
     // Makes the mesh here, and writes it on a thread of its own.
     void SaveMesh(const std::string& path);
@@ -89,7 +92,6 @@ class FrameMapping {
     const BlockMap* whole_map() const { return paging_ ? nullptr : &stage_.map(); }
     PagingStage* paging() { return paging_.get(); }  // null without a memory limit
     bool saving() const { return scan_.has_value(); }
-    std::string scan_path() const { return scan_ ? scan_->path() : std::string(); }
     std::size_t checkpoints_waiting() const { return scan_ ? scan_->waiting() : 0; }
     ViewerFeed& feed() { return feed_; }
     void SendMesh() { feed_.SendMesh(stage_); }

@@ -76,9 +76,8 @@ void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels,
                                   life_.saving(),
                                   std::move(resumed)};
     settings.tracked_layers = config_.pipeline.trackers.layers();
+    settings.make_pager = life_.MakePagers();
     settings.only_answers = life_.only_localise();
-    if (life_.saving())
-        settings.make_pager = RebuildPagers(config_.pipeline, source_.camera, life_.scan_path());
     loops_ = std::make_unique<LoopThread>(
         std::move(settings),
         LoopThread::Surroundings{links_.frames, links_.tracked_frames, links_.mapping,
@@ -163,8 +162,7 @@ bool LiveMapping::DetectionDue(double stamp_s) const {
 // Passes the frame on to labelling and loop closure, which process it in the background.
 void LiveMapping::Offer(MappingTask& task) {
     const FrameReport& report = task.tracked->report;
-    if (labelling_ && life_.stage().has_labels() && life_.labelling() && report.fused &&
-        DetectionDue(report.stamp_s)) {
+    if (labelling_ && life_.labelling() && report.fused && DetectionDue(report.stamp_s)) {
         last_detection_s_ = report.stamp_s;
         std::unique_ptr<Frame> frame = links_.frames.Take();
         if (loops_)

@@ -42,7 +42,7 @@ Status LockstepEngine::StartScan(ScanPlan plan) {
 void LockstepEngine::BeginLoops() {
     if (!config_.loops.enabled) return;
     loops_.emplace(config_.EffectiveLoops(), config_.pipeline, source_, loop_labels_,
-                   RebuildPagers(config_.pipeline, source_.camera, mapping_.scan_path()));
+                   mapping_.MakePagers());
     loops_->Switch(loops_on_);
 }
 
@@ -78,7 +78,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
     mapping_.Begin();
-    if (LabelsNow()) labelling_.Detect(frame_, false, tracking_.stage());
+    if (mapping_.labelling()) labelling_.Detect(frame_, false, tracking_.stage());
     tracking_.Begin(frame_);
     tracking_.Track(frame_, mapping_.MapFor(tracking_.stage()), tracked_);
     RelocaliseIfLost();
@@ -94,7 +94,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
 }
 
 void LockstepEngine::Label(FrameOutcome& outcome) {
-    if (!LabelsNow() || !tracked_.report.fused) return;
+    if (!mapping_.labelling() || !tracked_.report.fused) return;
     std::optional<LabelReport> detected = labelling_.TakeDetections();
     if (!detected) return;
     mapping_.Label(frame_.depth_m, tracked_.report.track.T_world_camera, *detected);

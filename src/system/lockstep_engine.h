@@ -41,7 +41,6 @@ class LockstepEngine : public Engine {
     void BeginLoops();
 
     void Process(FrameOutcome& outcome);
-    bool LabelsNow() const { return mapping_.stage().has_labels() && mapping_.labelling(); }
     void Label(FrameOutcome& outcome);
     void RelocaliseIfLost();
     void CloseLoops(FrameOutcome& outcome);

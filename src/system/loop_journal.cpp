@@ -53,7 +53,7 @@ void LoopJournal::Begin(const LoopCloser& closer) {
 }
 
 LoopChanges LoopJournal::Take(const LoopCloser& closer, std::size_t most_frames) {
-    if (!std::exchange(begun_, true)) most_frames = closer.store().frames().size();
+    if (!std::exchange(begun_, true)) most_frames = kAllFrames;
     LoopChanges news;
     news.passages.assign(closer.graph().passages().begin() + static_cast<std::ptrdiff_t>(passages_),
                          closer.graph().passages().end());

@@ -2,6 +2,7 @@
 // scan file, and what it continues with when that is read again.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,6 +36,7 @@ class LoopJournal {
     void Touch(std::int64_t frame_index) { touched_.push_back(frame_index); }
     // Afterwards at most `most_frames` new frames. The rest follow in later calls. With all frames
     // the progress is the newest.
+    static constexpr std::size_t kAllFrames = std::numeric_limits<std::size_t>::max();
     LoopChanges Take(const LoopCloser& closer, std::size_t most_frames = 4);
 
   private:

@@ -74,7 +74,6 @@ Status RebuildPaging::Complete(const BlockMap& map) {
 
 MakeMapPager RebuildPagers(const PipelineConfig& config, const PinholeCamera& camera,
                            const std::string& scan_path) {
-    if (!config.has_memory_limit()) return {};
     return [config, camera, scan_path]() -> Result<std::unique_ptr<MapPager>> {
         Result<std::shared_ptr<CubeScratch>> store = CubeScratch::Create(scan_path);
         if (!store.ok()) return store.status();

@@ -127,7 +127,6 @@ Result<ScanPlan> OpenToLocalise(const std::string& path, const SourceInfo& sourc
     if (Status status = CheckCamera(path, scan.meta, source); !status.ok()) return status;
     if (!scan.LastPose())
         return Status::Error(path + ": nothing was tracked in this scan; give a scan with a map");
-    scan.labels.clear();  // a labelling stage's state, and there is none
     ScanPlan plan;
     plan.depth_units_per_m = scan.meta.depth_units_per_m;
     plan.resumed = std::move(scan);
