@@ -21,7 +21,7 @@ Result<int> Run(const RunArguments& a, const CommandContext& context) {
     if (Status status = Configure(a, config); !status.ok()) return status;
     std::unique_ptr<Backend> device;
     if (a.device == "cuda") {  // auto means the CPU until the CUDA backend has run on a GPU
-        Result<std::unique_ptr<Backend>> opened = OpenGpu(config.pipeline.device);
+        Result<std::unique_ptr<Backend>> opened = OpenGpu(config.pipeline.device_memory_mb);
         if (!opened.ok()) return opened.status();
         device = std::move(opened.value());
     }

@@ -87,7 +87,7 @@ Status Run(const Options& options) {
     if (Status status = config.Validate(); !status.ok()) return status;
     std::unique_ptr<Backend> device;
     if (options.device == "cuda") {
-        Result<std::unique_ptr<Backend>> opened = OpenGpu(config.pipeline.device);
+        Result<std::unique_ptr<Backend>> opened = OpenGpu(config.pipeline.device_memory_mb);
         if (!opened.ok()) return opened.status();
         device = std::move(opened.value());
     }

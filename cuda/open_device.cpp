@@ -34,7 +34,7 @@ std::string DescribeGpus() {
     return text + " (used only with --device cuda; not yet tested on a GPU)";
 }
 
-Result<std::unique_ptr<Backend>> OpenGpu(const DeviceConfig& config) {
+Result<std::unique_ptr<Backend>> OpenGpu(double memory_limit_mb) {
     const char* reason = nullptr;
     Gpu gpu;
     if (CountGpus(reason) == 0 || !UseGpu(0, gpu, reason))
@@ -45,8 +45,8 @@ Result<std::unique_ptr<Backend>> OpenGpu(const DeviceConfig& config) {
             "--device cuda: {}: compute capability {}.{} or higher is required; omit --device to "
             "run on the CPU",
             Describe(gpu), kLeastMajor, kLeastMinor));
-    const std::size_t limit = config.memory_mb > 0
-                                  ? static_cast<std::size_t>(config.memory_mb) * kMega
+    const std::size_t limit = memory_limit_mb > 0
+                                  ? static_cast<std::size_t>(memory_limit_mb) * kMega
                                   : gpu.free_bytes / 10 * 9;
     if (limit < kLeastBytes || limit > gpu.free_bytes)
         return Status::Error(fmt::format(

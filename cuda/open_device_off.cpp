@@ -7,7 +7,7 @@ std::string DescribeGpus() {
     return "off: this build has no CUDA backend; configure with TESSERA_CUDA=ON (needs nvcc)";
 }
 
-Result<std::unique_ptr<Backend>> OpenGpu(const DeviceConfig&) {
+Result<std::unique_ptr<Backend>> OpenGpu(double) {
     return Status::Error(
         "--device cuda: this build has no CUDA backend; configure with TESSERA_CUDA=ON (needs "
         "nvcc), or omit --device to run on the CPU");

@@ -45,20 +45,6 @@ void CollectDelta(const BlockMap& map, BlockMap::Layers layers, std::span<const 
     });
 }
 
-void CollectWhole(const BlockMap& map, BlockMap::Layers layers, std::uint32_t revision,
-                  MapDelta& delta) {
-    TESSERA_CHECK(map.count() == map.size() - 1,
-                  "CollectWhole needs a map without releases; it has {} blocks and {} ids",
-                  map.count(), map.size());
-    std::vector<BlockChange> blocks;
-    std::vector<BlockId> all;
-    for (BlockId id = 1; id < map.size(); ++id) {
-        blocks.push_back({id, false, map.coord(id)});
-        all.push_back(id);
-    }
-    CollectDelta(map, layers, blocks, all, revision, delta);
-}
-
 void CopyVoxels(const BlockMap& map, BlockId id, BlockMap& copy, BlockId to) {
     std::memcpy(copy.field(to), map.field(id), kFieldBytes);
     if (copy.has_colours()) std::memcpy(copy.colour(to), map.colour(id), kColourBytes);

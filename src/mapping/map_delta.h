@@ -36,10 +36,6 @@ struct MapDelta {
 void CollectDelta(const BlockMap& map, BlockMap::Layers layers, std::span<const BlockChange> blocks,
                   std::span<const BlockId> changed, std::uint32_t revision, MapDelta& delta);
 
-// Collects a whole map for an empty copy. The map must not have released any block yet.
-void CollectWhole(const BlockMap& map, BlockMap::Layers layers, std::uint32_t revision,
-                  MapDelta& delta);
-
 // Copies these layers of the whole map at once, with the same ids, but no labels.
 std::unique_ptr<BlockMap> CopyLayers(const BlockMap& map, BlockMap::Layers layers);
 
@@ -47,7 +43,7 @@ std::unique_ptr<BlockMap> CopyLayers(const BlockMap& map, BlockMap::Layers layer
 void CopyVoxels(const BlockMap& map, BlockId id, BlockMap& copy, BlockId to);
 
 // Brings `copy` up to date. Apply every delta exactly once, in the order of collection, starting
-// from an empty map.
+// from an empty map or from CopyLayers.
 void ApplyDelta(const MapDelta& delta, BlockMap& copy);
 
 }  // namespace tessera

@@ -25,7 +25,7 @@ constexpr const char* kCure =
 }  // namespace
 
 std::string MemoryWarning(const RunConfig& config) {
-    if (config.pipeline.paging.enabled()) return "";
+    if (config.pipeline.has_memory_limit()) return "";
     const BlockMap::Config& map = config.pipeline.map;
     const double mb_per_m2 = MapBytesPerSquareMetre(map.voxel_size_m, map.truncation_m) / kMb;
     const double free_mb = FreeMemoryMb();

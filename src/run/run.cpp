@@ -42,7 +42,7 @@ Status CheckScan(const RunRequest& request) {
 }
 
 Status CheckPaging(const RunRequest& request, const RunConfig& config) {
-    if (!config.pipeline.paging.enabled()) return Status::Ok();
+    if (!config.pipeline.has_memory_limit()) return Status::Ok();
     const std::string key = "mapping.memory_limit_mb: ";
     if (request.scan_file.empty())
         return Status::Error(
@@ -56,7 +56,7 @@ Status CheckPaging(const RunRequest& request, const RunConfig& config) {
 
 Status CheckDevice(const RunRequest& request, const RunConfig& config) {
     if (request.device == nullptr) return Status::Ok();
-    if (config.pipeline.paging.enabled())
+    if (config.pipeline.has_memory_limit())
         return Status::Error(
             "--device cuda: not supported yet with mapping.memory_limit_mb; leave one of the two "
             "out");

@@ -9,8 +9,8 @@
 #include "optimize/session_join.h"
 #include "run/scan_export.h"
 #include "scan/scan_writer.h"
+#include "system/loop_journal.h"
 #include "system/loop_stage.h"
-#include "system/scan_restore.h"
 
 namespace tessera {
 namespace {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <string>
 
-#include "core/config.h"
 #include "mapping/block_mesher.h"
 #include "mapping/integrator.h"
 #include "mapping/predicted_view.h"
@@ -14,12 +13,6 @@
 #include "tracking/sdf_sums.h"
 
 namespace tessera {
-
-struct DeviceConfig {
-    double memory_mb = 0;
-
-    void Describe(ConfigParameters& parameters);
-};
 
 // Owner thread only, including every object it creates.
 class Backend {

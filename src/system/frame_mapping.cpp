@@ -7,7 +7,6 @@
 #include "core/stopwatch.h"
 #include "io/mesh_io.h"
 #include "system/run_control.h"
-#include "system/scan_restore.h"
 
 namespace tessera {
 
@@ -23,40 +22,51 @@ FrameMapping::FrameMapping(const RunConfig& config, const SourceInfo& source, Ba
     label_settings_.prediction = config.labels.prediction;
 }
 
-Status FrameMapping::StartScan(ScanPlan plan) {
+Result<std::optional<LoopCloser::Memory>> FrameMapping::StartScan(ScanPlan plan) {
     only_localise_ = plan.only_localise();
-    continued_ = plan.resumed.has_value();
-    if (only_localise_) {
-        loops_ = TakeLoopMemory(*plan.resumed);
-        return RestoreMap({}, *plan.resumed, stage_);
+    std::optional<ScanContent> resumed = std::exchange(plan.resumed, std::nullopt);
+    continued_ = resumed.has_value();
+    if (plan.file)
+        scan_.emplace(std::move(plan), config_.scan, wait_, config_.loops.enabled, notices_);
+    std::optional<LoopCloser::Memory> learnt;
+    if (resumed) {
+        if (Status status = Resume(*resumed); !status.ok()) return status;
+        learnt = TakeLoopMemory(*resumed);
     }
-    scan_.emplace(std::move(plan), config_.scan, wait_, config_.loops.enabled, notices_);
-    if (Status status = scan_->Resume(stage_); !status.ok()) return status;
-    return StartPaging();
+    if (Status status = StartPaging(); !status.ok()) return status;
+    return learnt;
+}
+
+Status FrameMapping::Resume(ScanContent& scan) {
+    if (scan_) scan_->Resume(scan.progress, *scan.map);
+    stage_.Resume(std::move(scan.map), scan.progress.fused_frames);
+    if (only_localise_ || scan.labels.empty()) return Status::Ok();
+    StateReader labels(scan.labels);
+    return stage_.LoadLabels(labels)
+               ? Status::Ok()
+               : Status::Error(scan_->path() +
+                               ": its labels have other classes; give the same --labels and "
+                               "labels.classes as when the scan was created");
 }
 
 Status FrameMapping::StartPaging() {
-    if (!config_.pipeline.paging.enabled()) return Status::Ok();
+    if (!scan_ || !config_.pipeline.has_memory_limit()) return Status::Ok();
     Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_->path());
     if (!reader.ok()) return reader.status();
-    paging_ = std::make_unique<PagingStage>(config_.pipeline, source_.camera,
-                                            std::make_unique<Pager>(std::move(reader.value())),
-                                            wait_, notices_);
+    paging_ =
+        std::make_unique<PagingStage>(config_.pipeline, source_.camera, std::move(reader.value()),
+                                      wait_, stage_, *scan_, notices_);
     return Status::Ok();
-}
-
-std::optional<LoopCloser::Memory> FrameMapping::TakeLoops() {
-    return scan_ ? scan_->TakeLoops() : std::exchange(loops_, std::nullopt);
 }
 
 // ---- A frame.
 
 void FrameMapping::Begin() {
-    if (paging_) paging_->BeginFrame(stage_, *scan_);
+    if (paging_) paging_->BeginFrame();
 }
 
 void FrameMapping::Fuse(TrackedFrame& tracked, FrameOutcome& outcome) {
-    if (paging_ && paging_->AfterTracking(tracked, stage_, *scan_)) outcome.fusion_dropped = true;
+    if (paging_ && paging_->AfterTracking(tracked)) outcome.fusion_dropped = true;
     stage_.Fuse(tracked);
 }
 
@@ -91,7 +101,7 @@ void FrameMapping::Save(FrameOutcome& outcome) {
     Stopwatch watch;
     if (scan_) scan_->SaveIfDue(stage_);
     outcome.scan_ms += watch.LapMs();
-    if (paging_) paging_->Release(stage_, *scan_);
+    if (paging_) paging_->Release();
 }
 
 void FrameMapping::Report(const Frame& frame, const TrackedFrame& tracked, FrameOutcome& outcome) {
@@ -111,13 +121,18 @@ void FrameMapping::PutMap(LoopCloser::Correction correction, std::uint32_t moved
     if (paging_) {
         const auto* pager = dynamic_cast<const RebuildPaging*>(correction.pager.get());
         TESSERA_CHECK(pager != nullptr, "a corrected map without the pager of its blocks");
-        paging_->Replaced(correction.T_new_old, *pager, stage_, *scan_);
+        paging_->Replaced(correction.T_new_old, *pager);
     }
     if (scan_) scan_->Move(correction.T_new_old);
 }
 
+MakeMapPager FrameMapping::MakePagers() const {
+    return paging_ ? RebuildPagers(config_.pipeline, source_.camera, scan_->path())
+                   : MakeMapPager();
+}
+
 void FrameMapping::LoadAround(const Eigen::Isometry3d& T_world_camera) {
-    if (paging_) paging_->LoadAround(T_world_camera, stage_, *scan_);
+    if (paging_) paging_->LoadAround(T_world_camera);
 }
 
 // ---- Commands of the user.
@@ -134,7 +149,7 @@ void FrameMapping::Reset() {
 void FrameMapping::SaveMesh(const std::string& path) {
     if (!mesh_writer_) mesh_writer_.emplace(1, [this](SavedMesh& saved) { WriteMesh(saved); });
     if (!mesh_writer_->idle()) return notices_.Tell("a mesh is still being saved; try again later");
-    SavedMesh saved{path, paging_ ? paging_->MissingText(*scan_) : "", stage_.Mesh()};
+    SavedMesh saved{path, paging_ ? paging_->MissingText() : "", stage_.Mesh()};
     if (saved.mesh.triangles.empty()) return notices_.Tell("no surface to save yet");
     TESSERA_CHECK(mesh_writer_->TryPush(std::move(saved)), "an idle thread has no room");
 }
@@ -206,12 +221,13 @@ TriangleMesh FrameMapping::TakeMesh(Status& status, bool keep_map) {
 TriangleMesh FrameMapping::MakeFinalMesh(Status& status, bool keep_map) {
     if (!paging_ || !paging_->paged()) return stage_.TakeMesh(keep_map);
     if (scan_->failed()) {
-        const Status returned = paging_->ReturnAll(stage_, *scan_);
+        const Status returned = paging_->ReturnAll();
         if (returned.ok()) return stage_.TakeMesh();
         if (status.ok()) status = returned;
         return {};
     }
     const std::string path = scan_->path();
+    paging_.reset();
     scan_.reset();  // its checkpoint buffers would have to fit beside the mesh
     ReturnFreeMemory();
     return stage_.TakeStoredMesh(path, status);

@@ -28,11 +28,10 @@ class FrameMapping {
                  ViewerLink* viewer, bool wait, Notices& notices);
 
     // ---- Before the first frame.
-    // Saves a scan from now on, unless the camera is only to be localised. Restores the map of one
-    // that is continued.
-    Status StartScan(ScanPlan plan);
-    // After StartScan: the loop closure state to continue with. Nothing for a new file.
-    std::optional<LoopCloser::Memory> TakeLoops();
+    // Saves a scan from now on, unless the camera is only to be localised or the plan is empty.
+    // Restores the map of one that is resumed, and returns the loop closure state to continue with.
+    Result<std::optional<LoopCloser::Memory>> StartScan(ScanPlan plan);
+    bool only_localise() const { return only_localise_; }
 
     // ---- A frame, in this order.
     // Loads what the camera may see near its last pose. Lockstep calls it before tracking.
@@ -57,13 +56,16 @@ class FrameMapping {
     // Replaces the map by a corrected one. `moved_at`: if that was moved, the revision at which the
     // map in use was copied for it.
     void PutMap(LoopCloser::Correction correction, std::uint32_t moved_at = 0);
+    // After StartScan: keeps a corrected map in the making within the memory limit, if there is
+    // one.
+    MakeMapPager MakePagers() const;
     // Lockstep: loads what a camera at this pose may see.
     void LoadAround(const Eigen::Isometry3d& T_world_camera);
 
     // ---- Commands of the user.
     // Replaces `config.labels.prediction` from the next Label on.
     void Apply(const LabelSettings& settings) { label_settings_ = settings; }
-    bool labelling() const { return label_settings_.on; }
+    bool labelling() const { return stage_.has_labels() && label_settings_.on; }
     void Reset();
     // Makes the mesh here, and writes it on a thread of its own.
     void SaveMesh(const std::string& path);
@@ -90,13 +92,13 @@ class FrameMapping {
     const BlockMap* whole_map() const { return paging_ ? nullptr : &stage_.map(); }
     PagingStage* paging() { return paging_.get(); }  // null without a memory limit
     bool saving() const { return scan_.has_value(); }
-    std::string scan_path() const { return scan_ ? scan_->path() : std::string(); }
     std::size_t checkpoints_waiting() const { return scan_ ? scan_->waiting() : 0; }
     ViewerFeed& feed() { return feed_; }
     void SendMesh() { feed_.SendMesh(stage_); }
     bool SendFinalMesh() { return feed_.SendFinalMesh(stage_); }
 
   private:
+    Status Resume(ScanContent& scan);
     Status StartPaging();
     TriangleMesh MakeFinalMesh(Status& status, bool keep_map);
     struct SavedMesh {
@@ -113,9 +115,8 @@ class FrameMapping {
     bool only_localise_ = false, continued_ = false;  // a scan
     Notices& notices_;
     MappingStage stage_;
-    std::optional<ScanStage> scan_;            // set if a scan is saved
-    std::optional<LoopCloser::Memory> loops_;  // of a scan in which the camera is only localised
-    std::unique_ptr<PagingStage> paging_;      // null without a memory limit
+    std::optional<ScanStage> scan_;        // set if a scan is saved
+    std::unique_ptr<PagingStage> paging_;  // null without a memory limit
     // With a window: frames so far, in case the user starts saving a scan mid-run, or at the end
     // another one.
     std::vector<PathRecord> past_;

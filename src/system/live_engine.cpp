@@ -65,8 +65,9 @@ TriangleMesh LiveEngine::TakeMesh() {
 }
 
 std::vector<StampedPose> LiveEngine::CorrectedPath() const {
-    return mapping_.loops() != nullptr && !mapping_.only_localise() ? mapping_.loops()->Path()
-                                                                    : std::vector<StampedPose>();
+    return mapping_.loops() != nullptr && !mapping_.life().only_localise()
+               ? mapping_.loops()->Path()
+               : std::vector<StampedPose>();
 }
 
 std::optional<CalibrationReport> LiveEngine::calibration() const {

@@ -26,13 +26,12 @@ Status LiveMapping::Start(Labelling labelling, OpenDetectorFunction open_detecto
         labels = LoopCloser::Labels{config_.labels, labelling.classes};
         StartLabels(std::move(labelling));
     }
-    only_localise_ = plan.only_localise();
-    if (plan.file || only_localise_) {
-        links_.saving.store(!only_localise_);
-        if (Status status = life_.StartScan(std::move(plan)); !status.ok()) return status;
-        if (!one_thread_ && life_.stage().map().size() > 1) SendWholeMap();
-    }
-    if (config_.loops.enabled) StartLoops(std::move(labels));
+    Result<std::optional<LoopCloser::Memory>> learnt = life_.StartScan(std::move(plan));
+    if (!learnt.ok()) return learnt.status();
+    links_.saving.store(life_.saving());
+    if (!one_thread_ && life_.stage().map().size() > 1)
+        field_ = CopyLayers(life_.stage().map(), config_.pipeline.trackers.layers());
+    if (config_.loops.enabled) StartLoops(std::move(labels), std::move(learnt.value()));
     if (!one_thread_)
         worker_.emplace(
             LiveLinks::kTasks,
@@ -68,24 +67,17 @@ void LiveMapping::ChangeDetector(const std::string& name) {
     labelling_->Change(name);
 }
 
-void LiveMapping::SendWholeMap() {
-    MapUpdate whole{links_.deltas.Take(), 0, nullptr};
-    life_.stage().CollectWhole(*whole.delta);
-    TESSERA_CHECK(links_.map_updates.TryPush(std::move(whole)),
-                  "no room for the first update of the map");
-}
-
-void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels) {
+void LiveMapping::StartLoops(std::optional<LoopCloser::Labels> labels,
+                             std::optional<LoopCloser::Memory> resumed) {
     LoopThread::Settings settings{config_.EffectiveLoops(),
                                   FieldSettingsOf(config_.pipeline, source_.camera),
                                   source_.depth_units_per_m,
                                   std::move(labels),
                                   life_.saving(),
-                                  life_.TakeLoops()};
+                                  std::move(resumed)};
     settings.tracked_layers = config_.pipeline.trackers.layers();
-    settings.only_answers = only_localise_;
-    if (life_.saving())
-        settings.make_pager = RebuildPagers(config_.pipeline, source_.camera, life_.scan_path());
+    settings.make_pager = life_.MakePagers();
+    settings.only_answers = life_.only_localise();
     loops_ = std::make_unique<LoopThread>(
         std::move(settings),
         LoopThread::Surroundings{links_.frames, links_.tracked_frames, links_.mapping,
@@ -170,8 +162,7 @@ bool LiveMapping::DetectionDue(double stamp_s) const {
 // Passes the frame on to labelling and loop closure, which process it in the background.
 void LiveMapping::Offer(MappingTask& task) {
     const FrameReport& report = task.tracked->report;
-    if (labelling_ && life_.stage().has_labels() && life_.labelling() && report.fused &&
-        DetectionDue(report.stamp_s)) {
+    if (labelling_ && life_.labelling() && report.fused && DetectionDue(report.stamp_s)) {
         last_detection_s_ = report.stamp_s;
         std::unique_ptr<Frame> frame = links_.frames.Take();
         if (loops_)
@@ -187,7 +178,7 @@ void LiveMapping::Offer(MappingTask& task) {
             life_.paging()->ReleaseHold(report.index);  // no detections are to come
         links_.frames.Give(std::move(needless));
     }
-    if (loops_ && report.tracked() && !only_localise_)
+    if (loops_ && report.tracked() && !life_.only_localise())
         loops_->Offer(std::move(task.tracked), std::move(task.frame), version());
     links_.frames.Give(std::move(task.frame));
     links_.tracked_frames.Give(std::move(task.tracked));
@@ -222,7 +213,7 @@ void LiveMapping::Reset() {
 void LiveMapping::End() {
     if (labelling_ && !links_.quit.load()) labelling_->Finish();
     while (labelling_ && labelling_->has_answer()) TakeLabels();
-    if (loops_ && !links_.quit.load() && !only_localise_) {
+    if (loops_ && !links_.quit.load() && !life_.only_localise()) {
         const auto take_all = [this] {
             LoopThread::Update update;
             while (loops_->TryTake(update)) TakeUpdate(std::move(update), true);

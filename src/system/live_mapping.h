@@ -18,11 +18,12 @@ class LiveMapping {
     LiveMapping(const RunConfig& config, const SourceInfo& source, Backend* device,
                 ViewerLink* viewer, LiveLinks& links);
 
-    // Prepares labels, the scan and loop closure, then starts the thread. A resumed scan's map is
-    // the first map update for tracking.
+    // Prepares labels, the scan and loop closure, then starts the thread.
     Status Start(Labelling labelling, OpenDetectorFunction open_detector, ScanPlan plan);
 
     // ---- Tracking thread.
+    // Call once: its copy of a resumed scan's map. Null for a new one, or with a device.
+    std::unique_ptr<BlockMap> TakeField() { return std::move(field_); }
     // Waits if mapping is far behind. It then skips fusion until it has caught up.
     void Send(MappingTask task);
     // With a device: takes what other threads have answered.
@@ -33,7 +34,6 @@ class LiveMapping {
     // Call after the last task: maps what waits, closes pending loops and completes the scan file.
     void Finish();
     LoopThread* loops() const { return loops_.get(); }  // null without loop closure
-    bool only_localise() const { return only_localise_; }
     // With a device: the map to track in.
     const BlockMap& MapFor(const TrackingStage& tracking) const { return life_.MapFor(tracking); }
 
@@ -45,8 +45,8 @@ class LiveMapping {
   private:
     void StartLabels(Labelling labelling);
     void ChangeDetector(const std::string& name);
-    void StartLoops(std::optional<LoopCloser::Labels> labels);
-    void SendWholeMap();
+    void StartLoops(std::optional<LoopCloser::Labels> labels,
+                    std::optional<LoopCloser::Memory> resumed);
 
     bool HasAnswers() const;
     void TakeAnswers();
@@ -72,9 +72,9 @@ class LiveMapping {
     const bool one_thread_;
     LiveLinks& links_;
     FrameMapping life_;
-    bool only_localise_ = false;                  // set before the threads start
     int world_ = 0;                               // number of resets
     std::vector<Eigen::Isometry3d> corrections_;  // T_new_old of each correction in this world
+    std::unique_ptr<BlockMap> field_;             // of a resumed scan, until tracking takes it
     std::optional<double> last_detection_s_;      // stamp of the last frame offered to labelling
     std::unique_ptr<LabellingThread> labelling_;  // null without labels
     OpenDetectorFunction open_detector_;

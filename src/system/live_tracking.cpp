@@ -12,11 +12,13 @@ CameraSearch SearchFor(const LiveTracking::Settings& settings) {
 
 }  // namespace
 
-LiveTracking::State::State(const Settings& settings, FramePlan plan)
+LiveTracking::State::State(const Settings& settings, FramePlan plan,
+                           std::unique_ptr<BlockMap> resumed_field)
     : life(settings.config, settings.camera, settings.device, std::move(plan)),
-      field(std::make_unique<BlockMap>(settings.config.pipeline.map,
-                                       settings.config.pipeline.trackers.layers())),
+      field(std::move(resumed_field)),
       search(SearchFor(settings)) {
+    const PipelineConfig& config = settings.config.pipeline;
+    if (!field) field = std::make_unique<BlockMap>(config.map, config.trackers.layers());
     if (!settings.resume) return;
     life.Resume(*settings.resume);
     search.Resume(settings.resume->last_seen_s, settings.resume->lost);
@@ -43,7 +45,7 @@ LiveTracking::LiveTracking(Settings settings, FramePlan plan, LiveLinks& links,
                    mapping_.TakeAnswersHere();
                    TakeCommands();
                },
-           .begin = [this] { state_.emplace(settings_, std::move(plan_)); },
+           .begin = [this] { state_.emplace(settings_, std::move(plan_), mapping_.TakeField()); },
            .end =
                [this](bool) {
                    TakeCommands();

@@ -35,7 +35,7 @@ class LiveTracking {
   private:
     // The thread's own: made and destroyed on it.
     struct State {
-        State(const Settings& settings, FramePlan plan);
+        State(const Settings& settings, FramePlan plan, std::unique_ptr<BlockMap> resumed_field);
 
         FrameTracking life;
         std::unique_ptr<BlockMap> field;  // copy of what tracking reads; unused with a device

@@ -18,32 +18,31 @@ LockstepEngine::LockstepEngine(EngineInput input)
         EnableLabels(input.labelling.classes);
         labelling_.Begin(std::move(input.labelling));
     }
-    if (input.scan.file) scan_path_ = input.scan.file->path();
-    only_localise_ = input.scan.only_localise();
-    if (only_localise_) control_.KeepMap(notices_);
-    BeginLoops();
-    if (input.scan.file || only_localise_) status_ = StartScan(std::move(input.scan));
+    if (input.scan.only_localise()) control_.KeepMap(notices_);
+    status_ = StartScan(std::move(input.scan));
     reader_ =
         std::make_unique<FrameReader>(std::move(input.source), input.selection, config_.read_ahead);
 }
 
 Status LockstepEngine::StartScan(ScanPlan plan) {
-    TrackingResume resume;
+    std::optional<TrackingResume> resume;
     if (plan.resumed) {
         resume = TrackingResume::Of(plan);
-        tracking_.Resume(resume);
+        tracking_.Resume(*resume);
         labelling_.Resume(plan.resumed->progress.labelled_frames);
     }
-    Status status = mapping_.StartScan(std::move(plan));
-    if (auto memory = mapping_.TakeLoops(); memory && loops_)
-        loops_->Resume(std::move(*memory), resume.last_seen_s, resume.lost);
-    return status;
+    Result<std::optional<LoopCloser::Memory>> learnt = mapping_.StartScan(std::move(plan));
+    if (!learnt.ok()) return learnt.status();
+    BeginLoops();
+    if (loops_ && resume)
+        loops_->Resume(std::move(*learnt.value()), resume->last_seen_s, resume->lost);
+    return Status::Ok();
 }
 
 void LockstepEngine::BeginLoops() {
     if (!config_.loops.enabled) return;
     loops_.emplace(config_.EffectiveLoops(), config_.pipeline, source_, loop_labels_,
-                   RebuildPagers(config_.pipeline, source_.camera, scan_path_));
+                   mapping_.MakePagers());
     loops_->Switch(loops_on_);
 }
 
@@ -79,7 +78,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
     outcome.decode_ms = reader_->decode_ms();
     recorder_.Add(frame_);
     mapping_.Begin();
-    if (LabelsNow()) labelling_.Detect(frame_, false, tracking_.stage());
+    if (mapping_.labelling()) labelling_.Detect(frame_, false, tracking_.stage());
     tracking_.Begin(frame_);
     tracking_.Track(frame_, mapping_.MapFor(tracking_.stage()), tracked_);
     RelocaliseIfLost();
@@ -95,7 +94,7 @@ void LockstepEngine::Process(FrameOutcome& outcome) {
 }
 
 void LockstepEngine::Label(FrameOutcome& outcome) {
-    if (!LabelsNow() || !tracked_.report.fused) return;
+    if (!mapping_.labelling() || !tracked_.report.fused) return;
     std::optional<LabelReport> detected = labelling_.TakeDetections();
     if (!detected) return;
     mapping_.Label(frame_.depth_m, tracked_.report.track.T_world_camera, *detected);
@@ -109,7 +108,7 @@ void LockstepEngine::RelocaliseIfLost() {
 }
 
 void LockstepEngine::CloseLoops(FrameOutcome& outcome) {
-    if (!loops_ || only_localise_) return;
+    if (!loops_ || mapping_.only_localise()) return;
     outcome.loops_ms =
         loops_->AfterFusion(frame_, tracked_, outcome.labels, tracking_.stage(),
                             [this](auto correction) { mapping_.PutMap(std::move(correction)); });
@@ -205,7 +204,7 @@ void LockstepEngine::Finish() {
     if (std::exchange(finished_, true)) return;
     if (reader_) reader_->RequestStop();
     recorder_.Stop();
-    if (loops_ && !only_localise_) {
+    if (loops_ && !mapping_.only_localise()) {
         notices_.Tell(
             loops_->Finish([this](auto correction) { mapping_.PutMap(std::move(correction)); }));
         if (mapping_.saving()) mapping_.AddLoops(loops_->TakeChanges());
@@ -214,7 +213,7 @@ void LockstepEngine::Finish() {
 }
 
 std::vector<StampedPose> LockstepEngine::CorrectedPath() const {
-    return loops_ && !only_localise_ ? loops_->Path() : std::vector<StampedPose>();
+    return loops_ && !mapping_.only_localise() ? loops_->Path() : std::vector<StampedPose>();
 }
 
 TriangleMesh LockstepEngine::TakeMesh() {

@@ -41,7 +41,6 @@ class LockstepEngine : public Engine {
     void BeginLoops();
 
     void Process(FrameOutcome& outcome);
-    bool LabelsNow() const { return mapping_.stage().has_labels() && mapping_.labelling(); }
     void Label(FrameOutcome& outcome);
     void RelocaliseIfLost();
     void CloseLoops(FrameOutcome& outcome);
@@ -63,8 +62,6 @@ class LockstepEngine : public Engine {
     std::optional<LoopStage> loops_;  // set if loop closure is on
     bool loops_on_ = true;            // the user may switch it off meanwhile
     std::optional<LoopCloser::Labels> loop_labels_;
-    bool only_localise_ = false;
-    std::string scan_path_;  // of a scan saved from the start; else empty
     RecorderThread recorder_;
     FrameLabelling labelling_;
     std::unique_ptr<FrameReader> reader_;  // null after TakeMesh

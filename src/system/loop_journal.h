@@ -1,13 +1,14 @@
 // What loop closure has learnt since the last query, as a message for the thread that writes the
-// scan file.
+// scan file, and what it continues with when that is read again.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "optimize/loop_closer.h"
-#include "scan/scan_records.h"
+#include "scan/scan_content.h"
 
 namespace tessera {
 
@@ -22,6 +23,9 @@ struct LoopChanges {
     std::optional<LoopProgress> progress;
 };
 
+// Takes keyframes and stored frames out of `scan`.
+LoopCloser::Memory TakeLoopMemory(ScanContent& scan);
+
 // Owner thread only: the closer's. Without Begin, the first Take reports all that the closer has,
 // so that a scan which is saved in the middle of a run is whole at once.
 class LoopJournal {
@@ -32,6 +36,7 @@ class LoopJournal {
     void Touch(std::int64_t frame_index) { touched_.push_back(frame_index); }
     // Afterwards at most `most_frames` new frames. The rest follow in later calls. With all frames
     // the progress is the newest.
+    static constexpr std::size_t kAllFrames = std::numeric_limits<std::size_t>::max();
     LoopChanges Take(const LoopCloser& closer, std::size_t most_frames = 4);
 
   private:

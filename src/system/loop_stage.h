@@ -55,8 +55,7 @@ class LoopStage {
     const std::optional<CalibrationReport>& calibration() const { return closer_.calibration(); }
     // For a scan file.
     LoopChanges TakeChanges() {
-        return finished_ ? journal_.Take(closer_, closer_.store().frames().size())
-                         : journal_.Take(closer_);
+        return finished_ ? journal_.Take(closer_, LoopJournal::kAllFrames) : journal_.Take(closer_);
     }
     // For another scan file, after Finish.
     LoopChanges TakeAll() {

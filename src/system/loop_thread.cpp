@@ -133,7 +133,8 @@ void LoopThread::Conclude() {
     if (auto change = closer_->Finish(note, map)) HandOver(std::move(*change), true);
     around_.notices.Tell(std::move(note));
     ReportProblems();
-    if (saved_.load()) Push({world_, std::nullopt, nullptr, TakeNews()});
+    if (saved_.load())
+        Push({world_, std::nullopt, nullptr, journal_.Take(*closer_, LoopJournal::kAllFrames)});
 }
 
 void LoopThread::BeginWorld(int world) {

@@ -105,7 +105,7 @@ class LoopThread {
     // After Finish: everything, for another scan file.
     LoopChanges TakeAll() {
         journal_ = LoopJournal();
-        return TakeNews();
+        return journal_.Take(*closer_);
     }
     std::size_t waiting() const { return worker_.waiting(); }
     // Of the fused frames offered while this many wait whole, one in how many is kept whole: a
@@ -141,8 +141,6 @@ class LoopThread {
     bool HasIdleWork() const;
     void WorkIdly();
     void Conclude();
-    // All that a scan file does not have yet.
-    LoopChanges TakeNews() { return journal_.Take(*closer_, closer_->store().frames().size()); }
     void BeginWorld(int world);
     bool MayCorrect() const {
         return !settings_.only_answers && seeking_.load() && closer_->HasWork() &&

@@ -26,12 +26,7 @@ void MappingStage::Fuse(TrackedFrame& tracked) {
     FrameReport& report = tracked.report;
     report.fusion = integrator_->Integrate(tracked.prepared, tracked.view, *map_);
     report.fused = true;
-    if (keep_deltas_) {
-        for (const BlockId id : integrator_->added_blocks())
-            block_changes_.push_back({id, false, map_->coord(id)});
-        changed_.insert(changed_.end(), integrator_->changed_blocks().begin(),
-                        integrator_->changed_blocks().end());
-    }
+    AddChanges(integrator_->added_blocks(), integrator_->changed_blocks());
     if (report.fusion.refused_blocks > 0)
         AddNote(
             fmt::format("{} of {} new blocks refused: {}", report.fusion.refused_blocks,
@@ -70,7 +65,15 @@ void MappingStage::CollectDelta(MapDelta& delta) {
     std::erase_if(changed_, [this](BlockId id) { return map_->IsFree(id); });
     tessera::CollectDelta(map(), config_.trackers.layers(), block_changes_, changed_,
                           integrator_->revision(), delta);
-    ForgetDelta();
+    block_changes_.clear();
+    changed_.clear();
+}
+
+// For CollectDelta: new blocks, and blocks whose field has changed, the new ones included.
+void MappingStage::AddChanges(std::span<const BlockId> added, std::span<const BlockId> changed) {
+    if (!keep_deltas_) return;
+    for (const BlockId id : added) block_changes_.push_back({id, false, map_->coord(id)});
+    changed_.insert(changed_.end(), changed.begin(), changed.end());
 }
 
 void MappingStage::Release(std::span<const BlockId> blocks) {
@@ -91,20 +94,9 @@ void MappingStage::Return(const BlockCopies& blocks, std::vector<BlockId>& ids) 
         blocks.Put(i, *map_, id);
         map_->MarkChanged(id, integrator_->revision());
         ids.push_back(id);
-        if (keep_deltas_) block_changes_.push_back({id, false, blocks.coords[i]});
     }
-    if (keep_deltas_) changed_.insert(changed_.end(), ids.begin(), ids.end());
+    AddChanges(ids, ids);
     if (labels_) labels_->Return(*map_, ids);
-}
-
-void MappingStage::ForgetDelta() {
-    block_changes_.clear();
-    changed_.clear();
-}
-
-void MappingStage::CollectWhole(MapDelta& delta) {
-    tessera::CollectWhole(map(), config_.trackers.layers(), integrator_->revision(), delta);
-    ForgetDelta();
 }
 
 int MappingStage::UpdateMesher(Mesher& mesher, int budget_blocks) const {
@@ -214,9 +206,15 @@ void MappingStage::Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelM
 
 void MappingStage::Place(std::unique_ptr<BlockMap> map) {
     map_ = std::move(map);
+    BeginAnew();
+}
+
+// What refers to an earlier map is forgotten.
+void MappingStage::BeginAnew() {
     following_.reset();
     if (labels_) ++labels_revision_;
-    ForgetDelta();
+    block_changes_.clear();
+    changed_.clear();
     MeshAgain();
 }
 
@@ -227,13 +225,8 @@ void MappingStage::Resume(std::unique_ptr<BlockMap> map, std::uint32_t fused_fra
 
 void MappingStage::Reset() {
     map_->Clear();
-    following_.reset();
-    if (labels_) {
-        labels_->Reset();
-        ++labels_revision_;
-    }
-    ForgetDelta();
-    MeshAgain();
+    if (labels_) labels_->Reset();
+    BeginAnew();
 }
 
 }  // namespace tessera

@@ -80,9 +80,6 @@ class MappingStage {
     void Release(std::span<const BlockId> blocks);
     void Return(const BlockCopies& blocks, std::vector<BlockId>& ids);
 
-    // Collects the whole map, for an empty copy.
-    void CollectWhole(MapDelta& delta);
-
     // Remeshes at most `budget_blocks` changed blocks into `update`. Returns how many still wait.
     int UpdateMesh(int budget_blocks, MeshUpdate& update);
     // Discards the meshes made so far: calls of UpdateMesh make all of them again.
@@ -134,7 +131,8 @@ class MappingStage {
     // on the CPU.
     int UpdateMesher(Mesher& mesher, int budget_blocks) const;
     void Place(std::unique_ptr<BlockMap> map);
-    void ForgetDelta();
+    void BeginAnew();
+    void AddChanges(std::span<const BlockId> added, std::span<const BlockId> changed);
 
     PipelineConfig config_;
     PinholeCamera camera_;

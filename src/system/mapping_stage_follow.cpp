@@ -31,10 +31,7 @@ void MappingStage::Follow() {
     const std::span<const BlockId> added = std::span(f.mover.added()).subspan(f.added),
                                    moved = std::span(f.mover.moved()).subspan(f.moved);
     integrator_->MarkChanged(*map_, moved);
-    if (keep_deltas_) {
-        for (const BlockId id : added) block_changes_.push_back({id, false, map_->coord(id)});
-        changed_.insert(changed_.end(), moved.begin(), moved.end());
-    }
+    AddChanges(added, moved);
     f.added += added.size();
     f.moved += moved.size();
     if (done) following_.reset();

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
+#include "core/check.h"
 #include "scan/scan_file.h"
 
 namespace tessera {
@@ -18,12 +19,16 @@ constexpr std::size_t kMostPerFrame = 8;  // live: maximum number of cubes inser
 }  // namespace
 
 PagingStage::PagingStage(const PipelineConfig& config, const PinholeCamera& camera,
-                         std::unique_ptr<Pager> pager, bool wait, Notices& notices)
-    : limit_bytes_(config.paging.memory_limit_mb * 1e6),
+                         std::unique_ptr<CubeReader> reader, bool wait, MappingStage& mapping,
+                         ScanStage& scan, Notices& notices)
+    : limit_bytes_(config.memory_limit_mb * 1e6),
       viewed_(config, camera),
       wait_(wait),
+      mapping_(mapping),
+      scan_(scan),
       notices_(notices),
-      pager_(std::move(pager)) {}
+      reader_(std::move(reader)),
+      reading_(kMostAsked, [this](std::int64_t& key) { Read(key); }) {}
 
 double PagingStage::Outside(const BlockCoord& cube) const {
     return viewed_.Outside_m(*T_world_camera_, cube);
@@ -62,12 +67,35 @@ void PagingStage::Want(const BlockCoord& cube) {
 }
 
 void PagingStage::Ask() {
-    while (!wanted_.empty() && pager_->under_way() < Pager::kMostAsked) {
-        wanted_.front().frame = frame_;
-        pager_->Ask(wanted_.front().key);
-        asked_.push_back(wanted_.front());
+    while (!wanted_.empty() && asked_.size() < kMostAsked) {
+        Asked& cube = wanted_.front();
+        cube.frame = frame_;
+        TESSERA_CHECK(reading_.TryPush(std::int64_t{cube.key}), "no room for cube {}", cube.key);
+        asked_.push_back(cube);
         wanted_.pop_front();
     }
+}
+
+// On the thread that reads.
+void PagingStage::Read(std::int64_t key) {
+    std::unique_ptr<StoredCube> cube = pool_.Take();
+    cube->key = key;
+    cube->status = reader_->Read(key, cube->blocks);
+    TESSERA_CHECK(read_.TryPush(std::move(cube)), "no room for cube {}", key);
+}
+
+// The next requested cube. Null if it has not been read yet, unless it is to be waited for.
+std::unique_ptr<PagingStage::StoredCube> PagingStage::TakeCube(bool wait) {
+    std::unique_ptr<StoredCube> cube;
+    if (wait)
+        owner_.Wait([&] { return read_.TryPop(cube); });
+    else
+        read_.TryPop(cube);
+    if (!cube) return nullptr;
+    TESSERA_CHECK(cube->key == asked_.front().key, "cube {} comes before cube {}", cube->key,
+                  asked_.front().key);
+    asked_.pop_front();
+    return cube;
 }
 
 // Whether a cube still to be loaded is in what the camera may see, or at most `further_m` outside.
@@ -78,110 +106,114 @@ bool PagingStage::Needs(double further_m) const {
 
 // The next camera is assumed about as far from the last as that was from the one before: tracking
 // starts there.
-void PagingStage::BeginFrame(MappingStage& mapping, ScanStage& scan) {
+void PagingStage::BeginFrame() {
     ++frame_;
-    if (T_world_camera_) Bring(std::min(step_m_, kAhead_m), mapping, scan);
+    if (T_world_camera_) Bring(std::min(step_m_, kAhead_m));
 }
 
-bool PagingStage::AfterTracking(TrackedFrame& tracked, MappingStage& mapping, ScanStage& scan) {
+bool PagingStage::AfterTracking(TrackedFrame& tracked) {
     if (!tracked.report.tracked() && !tracked.to_fuse) return false;
     const Eigen::Isometry3d& T_world_camera = tracked.report.track.T_world_camera;
     if (T_world_camera_)
         step_m_ = (T_world_camera.translation() - T_world_camera_->translation()).norm();
     T_world_camera_ = T_world_camera;
-    return !Bring(0, mapping, scan) && std::exchange(tracked.to_fuse, false);
+    return !Bring(0) && std::exchange(tracked.to_fuse, false);
 }
 
 // Returns false if part of what the camera may see is missing.
-bool PagingStage::Bring(double further_m, MappingStage& mapping, ScanStage& scan) {
+bool PagingStage::Bring(double further_m) {
     if (!away_.empty()) {
         Plan();
-        if (AwaitReplaced(mapping, scan)) {
+        if (AwaitReplaced()) {
             Ask();
-            InsertLoaded(further_m, mapping, scan);
+            InsertLoaded(further_m);
         }
     }
     return !Needs(0) && std::ranges::none_of(
                             lost_, [&](std::int64_t key) { return Outside(CubeOfKey(key)) <= 0; });
 }
 
-void PagingStage::InsertLoaded(double further_m, MappingStage& mapping, ScanStage& scan) {
+void PagingStage::InsertLoaded(double further_m) {
     for (std::size_t taken = 0; !asked_.empty() && (wait_ || taken < kMostPerFrame); ++taken) {
         if (wait_ && !Needs(further_m) && frame_ - asked_.front().frame < kFrames) return;
-        std::unique_ptr<StoredCube> cube = wait_ ? pager_->Take() : pager_->TryTake();
+        std::unique_ptr<StoredCube> cube = TakeCube(wait_);
         if (!cube) return;
-        asked_.pop_front();
-        Put(*cube, mapping, scan);
-        pager_->Give(std::move(cube));
+        Put(*cube);
+        pool_.Give(std::move(cube));
         Ask();
     }
 }
 
 // A cube that cannot be read back leaves a hole into which nothing may be fused. The rest of the
 // scan continues.
-void PagingStage::Put(const StoredCube& cube, MappingStage& mapping, ScanStage& scan) {
+void PagingStage::Put(const StoredCube& cube) {
     const auto expected = away_.extract(cube.key);
     if (cube.status.ok() && expected.mapped() == static_cast<std::int32_t>(cube.blocks.size())) {
-        mapping.Return(cube.blocks, ids_);
-        scan.Returned(mapping.map(), ids_);
+        mapping_.Return(cube.blocks, ids_);
+        scan_.Returned(mapping_.map(), ids_);
         return;
     }
     lost_.push_back(cube.key);
     if (std::exchange(told_lost_, true)) return;
     const Status status =
         cube.status.ok()
-            ? DamagedScan(scan.path(), "blocks that were moved out of memory are missing")
+            ? DamagedScan(scan_.path(), "blocks that were moved out of memory are missing")
             : cube.status;
     notices_.Tell(status.message() +
                   "; frames that see this part of the map are tracked but not fused");
 }
 
-void PagingStage::Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPaging& pager,
-                           MappingStage& mapping, ScanStage& scan) {
+void PagingStage::Replaced(const Eigen::Isometry3d& T_new_old, const RebuildPaging& pager) {
     Drain();
-    away_ = {pager.away().begin(), pager.away().end()};
+    away_ = pager.away();
     paged_ = pager.paged();
     if (T_world_camera_) T_world_camera_ = T_new_old * *T_world_camera_;
     for (Held& held : held_) held.T_world_camera = T_new_old * held.T_world_camera;
     expected_.reset();
     store_ = pager.store();
-    scan.Replaced(mapping.map(), store_);
+    scan_.Replaced(mapping_.map(), store_);
 }
 
 // Whether paged-out cubes can be read from the file. In lockstep, waits until they can.
-bool PagingStage::AwaitReplaced(MappingStage& mapping, ScanStage& scan) {
+bool PagingStage::AwaitReplaced() {
     if (!store_) return true;
-    if (!scan.HasReplaced() && !scan.failed() && wait_) scan.Settle(mapping, true);
-    if (scan.failed()) {
-        ReturnFromStore(mapping, scan);
+    if (!scan_.HasReplaced() && !scan_.failed() && wait_) scan_.Settle(mapping_, true);
+    if (scan_.failed()) {
+        PutBackFromStore();
         Plan();
+    } else if (!scan_.HasReplaced()) {
+        return false;
     }
-    if (store_ && !scan.HasReplaced()) return false;
     store_.reset();
     return true;
 }
 
 // The file will never hold the new map, so everything is loaded back from the store.
-void PagingStage::ReturnFromStore(MappingStage& mapping, ScanStage& scan) {
-    StoredCube cube;
-    for (const auto& [key, blocks] : store_->Cubes()) {
-        if (!away_.contains(key)) continue;
-        cube.key = key;
-        cube.status = store_->Read(key, cube.blocks);
-        Put(cube, mapping, scan);
-    }
+void PagingStage::PutBackFromStore() {
+    PutBack(store_->Cubes(),
+            [this](std::int64_t key, BlockCopies& blocks) { return store_->Read(key, blocks); });
     store_.reset();
 }
 
-void PagingStage::LoadAround(const Eigen::Isometry3d& T_world_camera, MappingStage& mapping,
-                             ScanStage& scan) {
+// Of these cubes, those that are paged out.
+void PagingStage::PutBack(const CubeCounts& cubes, const ReadCube& read) {
+    StoredCube cube;
+    for (const auto& [key, blocks] : cubes) {
+        if (!away_.contains(key)) continue;
+        cube.key = key;
+        cube.status = read(key, cube.blocks);
+        Put(cube);
+    }
+}
+
+void PagingStage::LoadAround(const Eigen::Isometry3d& T_world_camera) {
     const auto here = std::exchange(T_world_camera_, T_world_camera);
-    Bring(0, mapping, scan);
+    Bring(0);
     T_world_camera_ = here;
 }
 
 void PagingStage::Drain() {
-    while (pager_ && pager_->under_way() > 0) pager_->Give(pager_->Take());
+    while (reader_ && !asked_.empty()) pool_.Give(TakeCube(true));
     away_.clear();
     asked_.clear();
     wanted_.clear();

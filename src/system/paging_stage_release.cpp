@@ -9,10 +9,9 @@
 
 namespace tessera {
 
-bool PagingStage::AllSaved(const ResidentCubes::Cube& cube, const BlockMap& map,
-                           const ScanStage& scan) const {
+bool PagingStage::AllSaved(const ResidentCubes::Cube& cube) const {
     return std::ranges::all_of(resident_.blocks(cube),
-                               [&](BlockId id) { return scan.Has(map, id); });
+                               [&](BlockId id) { return scan_.Has(mapping_.blocks(), id); });
 }
 
 bool PagingStage::IsHeld(const BlockCoord& cube) const {
@@ -22,8 +21,8 @@ bool PagingStage::IsHeld(const BlockCoord& cube) const {
 }
 
 // Chooses enough cubes to release, among those that may be released. Warns if there are too few.
-std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving(const BlockMap& map,
-                                                            const ScanStage& scan) {
+std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving() {
+    const BlockMap& map = mapping_.blocks();
     const auto bytes = static_cast<double>(map.bytes());
     const double block_bytes = bytes / static_cast<double>(map.count() + 1);
     // Bytes left after releasing the chosen cubes, and after releasing all possible ones.
@@ -34,7 +33,7 @@ std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving(const BlockMap& map,
         const double cube_bytes = block_bytes * static_cast<double>(cube.last - cube.first);
         least_bytes -= cube_bytes;
         if (rest_bytes <= kRefill * limit_bytes_ || IsHeld(cube.cube) ||
-            (!wait_ && !AllSaved(cube, map, scan)))
+            (!wait_ && !AllSaved(cube)))
             continue;
         rest_bytes -= cube_bytes;
         leaving.push_back(cube);
@@ -47,24 +46,24 @@ std::vector<ResidentCubes::Cube> PagingStage::ChooseLeaving(const BlockMap& map,
     return leaving;
 }
 
-void PagingStage::Release(MappingStage& mapping, ScanStage& scan) {
-    const BlockMap& map = mapping.map();
-    if (store_ && scan.HasReplaced()) store_.reset();
-    if (static_cast<double>(map.bytes()) <= limit_bytes_ || !T_world_camera_) return;
+void PagingStage::Release() {
+    if (store_ && scan_.HasReplaced()) store_.reset();
+    const auto bytes = static_cast<double>(mapping_.blocks().bytes());
+    if (bytes <= limit_bytes_ || !T_world_camera_) return;
     // The order matters: a failed checkpoint is no longer in progress.
-    if ((!wait_ && !scan.idle()) || scan.failed()) return;
-    const std::vector<ResidentCubes::Cube> leaving = ChooseLeaving(map, scan);
+    if ((!wait_ && !scan_.idle()) || scan_.failed()) return;
+    const std::vector<ResidentCubes::Cube> leaving = ChooseLeaving();
     if (leaving.empty()) return;
     if (wait_) {
-        const bool saved = std::ranges::all_of(
-            leaving, [&](const auto& cube) { return AllSaved(cube, map, scan); });
-        if (!scan.Settle(mapping, !saved)) return;
+        const bool saved =
+            std::ranges::all_of(leaving, [&](const auto& cube) { return AllSaved(cube); });
+        if (!scan_.Settle(mapping_, !saved)) return;
     }
     paged_ = true;
     for (const ResidentCubes::Cube& cube : leaving) {
         const std::span<const BlockId> blocks = resident_.blocks(cube);
-        mapping.Release(blocks);
-        scan.Released(blocks);
+        mapping_.Release(blocks);
+        scan_.Touch(blocks);
         away_[CubeKey(cube.cube)] = static_cast<std::int32_t>(blocks.size());
     }
 }
@@ -73,30 +72,25 @@ void PagingStage::ReleaseHold(std::int64_t frame) {
     while (!held_.empty() && held_.front().frame <= frame) held_.pop_front();
 }
 
-Status PagingStage::ReturnAll(MappingStage& mapping, ScanStage& scan) {
-    if (store_) ReturnFromStore(mapping, scan);
+Status PagingStage::ReturnAll() {
+    if (store_) PutBackFromStore();
     if (away_.empty() && lost_.empty()) return Status::Ok();
-    Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan.path());
+    Result<std::unique_ptr<CubeReader>> reader = CubeReader::Open(scan_.path());
     if (!reader.ok()) return reader.status();
-    std::vector<std::int64_t> keys;
-    for (const auto& [key, blocks] : away_) keys.push_back(key);
-    std::ranges::sort(keys);
-    StoredCube cube;
-    for (const std::int64_t key : keys) {
-        cube.key = key;
-        cube.status = reader.value()->Read(key, cube.blocks);
-        Put(cube, mapping, scan);
-    }
+    const CubeCounts cubes = away_;
+    PutBack(cubes, [&](std::int64_t key, BlockCopies& blocks) {
+        return reader.value()->Read(key, blocks);
+    });
     return lost_.empty() ? Status::Ok()
-                         : DamagedScan(scan.path(),
+                         : DamagedScan(scan_.path(),
                                        "blocks that were moved out of memory cannot be read back");
 }
 
-std::string PagingStage::MissingText(const ScanStage& scan) const {
+std::string PagingStage::MissingText() const {
     if (away_.empty() && lost_.empty()) return {};
     return fmt::format(
         "; parts of the map that are only in {} are missing: `tessera export` writes all of it",
-        scan.path());
+        scan_.path());
 }
 
 }  // namespace tessera

@@ -12,12 +12,6 @@ void ShutterConfig::Describe(ConfigParameters& p) {
     p.Add("colour_readout_s", colour_readout_s, {-0.1, 0.1}, "s", "the same for the colour image");
 }
 
-void DeviceConfig::Describe(ConfigParameters& p) {
-    p.Add("device_memory_mb", memory_mb, {0.0, 1e6}, "MB",
-          "maximum GPU memory for --device cuda, 0 = 90 % of what is free at the start; while the "
-          "map grows, its largest layer exists twice");
-}
-
 void PipelineConfig::Describe(ConfigParameters& p) {
     p.Section("frame", [&](ConfigParameters& s) { frame.Describe(s); });
     p.Section("mapping", [&](ConfigParameters& s) {
@@ -26,8 +20,13 @@ void PipelineConfig::Describe(ConfigParameters& p) {
               "where truncation_m is less than this many standard deviations of the depth, as the "
               "first seconds show them, the band is wider: sets band_per_m; 0 leaves it as given");
         fusion.Describe(s);
-        paging.Describe(s);
-        device.Describe(s);
+        s.Add("memory_limit_mb", memory_limit_mb, {0.0, 1e6}, "MB",
+              "maximum memory for the map's blocks, 0 = no limit: blocks far from the camera are "
+              "moved to the file of --scan and loaded again before the camera sees them; all that "
+              "the camera may see from one place must fit");
+        s.Add("device_memory_mb", device_memory_mb, {0.0, 1e6}, "MB",
+              "maximum GPU memory for --device cuda, 0 = 90 % of what is free at the start; while "
+              "the map grows, its largest layer exists twice");
     });
     p.Section("tracking", [&](ConfigParameters& s) {
         trackers.Describe(s);

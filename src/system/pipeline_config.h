@@ -5,9 +5,7 @@
 #include "mapping/block_map.h"
 #include "mapping/integrator.h"
 #include "mapping/prepared_frame.h"
-#include "system/backend.h"
 #include "system/motion_model.h"
-#include "system/paging_config.h"
 #include "system/tracking_method.h"
 #include "tracking/image_aligner.h"
 #include "tracking/moving_detector.h"
@@ -30,13 +28,15 @@ struct PipelineConfig {
     // views; 0: as given.
     double band_sigmas = 4;
     Integrator::Config fusion;
-    PagingConfig paging;
-    DeviceConfig device;
+    double memory_limit_mb = 0;   // of the map's blocks; 0: no limit
+    double device_memory_mb = 0;  // for --device cuda; 0: most of what is free
     MotionModel::Config motion;
     ShutterConfig shutter;
     ImageAligner::Config prealign;
     TrackersConfig trackers;
     MovingDetector::Config moving;
+
+    bool has_memory_limit() const { return memory_limit_mb > 0; }
 
     void Describe(ConfigParameters& parameters);
     Status Validate() const;

@@ -8,7 +8,7 @@ namespace tessera {
 
 RebuildPaging::RebuildPaging(const PipelineConfig& config, const PinholeCamera& camera,
                              std::shared_ptr<CubeScratch> store)
-    : limit_bytes_(config.paging.memory_limit_mb * 1e6),
+    : limit_bytes_(config.memory_limit_mb * 1e6),
       viewed_(config, camera),
       store_(std::move(store)) {}
 
@@ -74,7 +74,6 @@ Status RebuildPaging::Complete(const BlockMap& map) {
 
 MakeMapPager RebuildPagers(const PipelineConfig& config, const PinholeCamera& camera,
                            const std::string& scan_path) {
-    if (!config.paging.enabled()) return {};
     return [config, camera, scan_path]() -> Result<std::unique_ptr<MapPager>> {
         Result<std::shared_ptr<CubeScratch>> store = CubeScratch::Create(scan_path);
         if (!store.ok()) return store.status();

@@ -42,8 +42,7 @@ class RebuildPaging : public MapPager {
     bool paged_ = false;
 };
 
-// Creates a new pager for each map, in the scan's folder. An empty function if the configuration
-// has no limit.
+// Creates a new pager for each map, in the scan's folder. The configuration has a limit.
 using MakeMapPager = std::function<Result<std::unique_ptr<MapPager>>()>;
 MakeMapPager RebuildPagers(const PipelineConfig& config, const PinholeCamera& camera,
                            const std::string& scan_path);

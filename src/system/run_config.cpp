@@ -4,6 +4,15 @@
 
 namespace tessera {
 
+void ScanConfig::Describe(ConfigParameters& p) {
+    p.Add("interval_s", interval_s, {0.05, 60.0}, "s",
+          "longest time between two checkpoints, by the clock or by the frames' stamps: the most "
+          "that a crash can lose");
+    p.AddChoice("frames", frames, {{"loops", Frames::kLoops}, {"all", Frames::kAll}},
+                "raw frames in the file: loops = those that loop closure keeps (none without it); "
+                "all = every frame, so that the scan can be replayed, at 0.25 MB per frame");
+}
+
 void LiveConfig::Describe(ConfigParameters& p) {
     p.Add("queue_frames", queue_frames, {1, 30}, "frames",
           "maximum number of frames waiting to be tracked before the oldest is dropped; more "

@@ -14,9 +14,18 @@
 #include "semantics/label_config.h"
 #include "synth/synthetic_source.h"
 #include "system/pipeline_config.h"
-#include "system/scan_config.h"
 
 namespace tessera {
+
+// For --scan and --resume.
+struct ScanConfig {
+    enum class Frames { kLoops, kAll };
+
+    double interval_s = 0.5;
+    Frames frames = Frames::kLoops;
+
+    void Describe(ConfigParameters& parameters);
+};
 
 // For --mode live.
 struct LiveConfig {

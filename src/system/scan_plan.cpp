@@ -50,15 +50,6 @@ bool IsSameSource(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-void ScanConfig::Describe(ConfigParameters& p) {
-    p.Add("interval_s", interval_s, {0.05, 60.0}, "s",
-          "longest time between two checkpoints, by the clock or by the frames' stamps: the most "
-          "that a crash can lose");
-    p.AddChoice("frames", frames, {{"loops", Frames::kLoops}, {"all", Frames::kAll}},
-                "raw frames in the file: loops = those that loop closure keeps (none without it); "
-                "all = every frame, so that the scan can be replayed, at 0.25 MB per frame");
-}
-
 Status TakeScanKeys(const std::string& path, ConfigParameters& parameters) {
     const Result<ScanMeta> meta = ReadScanMeta(path);
     if (!meta.ok()) return meta.status();
@@ -136,7 +127,6 @@ Result<ScanPlan> OpenToLocalise(const std::string& path, const SourceInfo& sourc
     if (Status status = CheckCamera(path, scan.meta, source); !status.ok()) return status;
     if (!scan.LastPose())
         return Status::Error(path + ": nothing was tracked in this scan; give a scan with a map");
-    scan.labels.clear();  // a labelling stage's state, and there is none
     ScanPlan plan;
     plan.depth_units_per_m = scan.meta.depth_units_per_m;
     plan.resumed = std::move(scan);

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "system/scan_restore.h"
+#include "core/check.h"
 
 namespace tessera {
 namespace {
@@ -23,32 +23,28 @@ ScanStage::ScanStage(ScanPlan plan, const ScanConfig& config, bool wait, bool lo
     : config_(config),
       wait_(wait),
       path_(plan.file->path()),
-      saved_(plan.resumed.has_value()),
       source_(plan.source_name),
-      resumed_(std::move(plan.resumed)),
       notices_(notices),
-      thread_(std::make_unique<ScanWriter>(std::move(plan.file), plan.depth_units_per_m), notices),
-      pending_(thread_.Take()),
-      path_log_(loops) {}
+      writer_(std::make_unique<ScanWriter>(std::move(plan.file), plan.depth_units_per_m)),
+      pending_(pool_.Take()),
+      path_log_(loops),
+      writing_(1, [this](std::unique_ptr<ScanCheckpoint>& job) { Write(std::move(job)); }) {}
 
-ScanStage::~ScanStage() = default;
+void ScanStage::Resume(const ScanProgress& progress, const BlockMap& map) {
+    saved_ = true;
+    progress_ = progress;
+    MarkSaved(map);
+}
 
-Status ScanStage::Resume(MappingStage& mapping) {
-    if (!resumed_) return Status::Ok();
-    ScanContent& scan = *resumed_;
-    progress_ = scan.progress;
-    map_identity_ = scan.map->identity();
-    for (BlockId id = 0; id < scan.map->size(); ++id)
-        seen_revision_.push_back(scan.map->revision(id));
-    if (Status status = RestoreMap(path_, scan, mapping); !status.ok()) return status;
-    loops_ = TakeLoopMemory(scan);
-    resumed_.reset();
-    return Status::Ok();
+void ScanStage::MarkSaved(const BlockMap& map) {
+    map_identity_ = map.identity();
+    seen_revision_.clear();
+    for (BlockId id = 0; id < map.size(); ++id) seen_revision_.push_back(map.revision(id));
 }
 
 void ScanStage::AddFrame(const Frame& frame, const TrackedFrame& tracked,
                          std::int64_t labelled_frames) {
-    if (thread_.failed()) return;
+    if (failed()) return;
     path_log_.Add(progress_.frames, RecordOf(frame, tracked), *pending_);
     if (config_.frames == ScanConfig::Frames::kAll) AddRaw(frame);
     ++progress_.frames;
@@ -67,7 +63,7 @@ void ScanStage::AddPast(const std::vector<PathRecord>& path) {
 }
 
 void ScanStage::AddLoops(LoopChanges news) {
-    if (thread_.failed()) return;
+    if (failed()) return;
     path_log_.Place(news, *pending_);
     std::ranges::move(news.keyframes, std::back_inserter(pending_->keyframes));
     std::ranges::move(news.poses, std::back_inserter(pending_->poses));
@@ -75,19 +71,19 @@ void ScanStage::AddLoops(LoopChanges news) {
 }
 
 void ScanStage::SaveIfDue(const MappingStage& mapping) {
-    if (!thread_.failed() && !mapping.following() && Due(progress_.last_stamp_s))
+    if (!failed() && !mapping.following() && Due(progress_.last_stamp_s))
         Checkpoint(mapping, false);
 }
 
 bool ScanStage::Due(double stamp_s) const {
-    if (!last_stamp_s_) return thread_.idle();
+    if (!last_stamp_s_) return idle();
     const std::size_t raw = pending_->raw_frames.size();
-    if (raw >= kManyRaw && (thread_.idle() || (wait_ && raw >= kMostRaw))) return true;
+    if (raw >= kManyRaw && (idle() || (wait_ && raw >= kMostRaw))) return true;
     const double longer_s =
         std::max(std::chrono::duration<double>(Clock::now() - last_time_).count(),
                  std::abs(stamp_s - *last_stamp_s_));
     return longer_s >= config_.interval_s &&
-           (thread_.idle() || (wait_ && longer_s >= 2 * config_.interval_s));
+           (idle() || (wait_ && longer_s >= 2 * config_.interval_s));
 }
 
 // Keeps a copy, which the writer compresses. If the writer is far behind, live frames are dropped
@@ -102,9 +98,9 @@ void ScanStage::AddRaw(const Frame& frame) {
 }
 
 void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {
-    thread_.WaitUntilIdle();
+    writing_.WaitUntilIdle();
     path_log_.AddWaiting(*pending_);
-    std::unique_ptr<ScanCheckpoint> next = thread_.Take();
+    std::unique_ptr<ScanCheckpoint> next = pool_.Take();
     // Reuse the block buffer of the checkpoint just written, so that this large part exists only
     // once.
     std::swap(pending_->blocks, next->blocks);
@@ -121,7 +117,7 @@ void ScanStage::Checkpoint(const MappingStage& mapping, bool finished) {
     last_stamp_s_ = progress_.last_stamp_s;
     last_time_ = Clock::now();
     saved_ = true;
-    thread_.Write(std::move(pending_));
+    TESSERA_CHECK(writing_.TryPush(std::move(pending_)), "a checkpoint while one is being written");
     pending_ = std::move(next);
 }
 
@@ -146,9 +142,7 @@ void ScanStage::AddBlocks(const MappingStage& mapping) {
 void ScanStage::Replaced(const BlockMap& map, std::shared_ptr<const CubeScratch> store) {
     pending_->clear_blocks = true;
     pending_->stored = std::move(store);
-    map_identity_ = map.identity();
-    seen_revision_.clear();
-    for (BlockId id = 0; id < map.size(); ++id) seen_revision_.push_back(map.revision(id));
+    MarkSaved(map);
     last_stamp_s_.reset();
 }
 
@@ -158,14 +152,22 @@ void ScanStage::Touch(std::span<const BlockId> blocks) {
             seen_revision_[static_cast<std::size_t>(id)] = kNever;
 }
 
-bool ScanStage::Settle(const MappingStage& mapping, bool checkpoint) {
-    if (checkpoint && !thread_.failed()) Checkpoint(mapping, false);
-    thread_.WaitUntilIdle();
-    return !thread_.failed();
+void ScanStage::Write(std::unique_ptr<ScanCheckpoint> checkpoint) {
+    const Status status = failed() ? Status::Ok() : writer_->Write(*checkpoint);
+    if (!status.ok()) {
+        failed_.store(true);
+        notices_.Tell("the scan is no longer saved: " + status.message() +
+                      "; everything saved before is intact");
+    }
+    checkpoint->Clear();
+    pool_.Give(std::move(checkpoint));
 }
 
-// Their ids may soon be used by other blocks.
-void ScanStage::Released(std::span<const BlockId> blocks) { Touch(blocks); }
+bool ScanStage::Settle(const MappingStage& mapping, bool checkpoint) {
+    if (checkpoint && !failed()) Checkpoint(mapping, false);
+    writing_.WaitUntilIdle();
+    return !failed();
+}
 
 void ScanStage::Returned(const BlockMap& map, std::span<const BlockId> blocks) {
     seen_revision_.resize(std::max(seen_revision_.size(), static_cast<std::size_t>(map.size())),
@@ -184,9 +186,17 @@ void ScanStage::Reset() {
 }
 
 void ScanStage::Finish(const MappingStage& mapping) {
-    if (std::exchange(finished_, true)) return;
-    if (!thread_.failed() && (progress_.frames > 0 || saved_)) Checkpoint(mapping, true);
-    thread_.Stop();
+    if (!writer_) return;
+    if (!failed() && (progress_.frames > 0 || saved_)) Checkpoint(mapping, true);
+    Stop();
+}
+
+// Waits until everything is written.
+void ScanStage::Stop() {
+    if (!writer_) return;
+    writing_.Finish();
+    writer_->Close();
+    writer_.reset();
 }
 
 }  // namespace tessera

@@ -12,7 +12,7 @@ std::string TrackingStage::Apply(const ViewerSettings& settings) {
     method_choices_ = settings.method_choices;
     trackers_.Select(settings.prediction);
     trackers_.SetAlpha(settings.auto_alpha, settings.alpha);
-    const bool too_deep = config_.paging.enabled() && settings.max_depth_m > planned_depth_m_;
+    const bool too_deep = config_.has_memory_limit() && settings.max_depth_m > planned_depth_m_;
     config_.frame.max_depth_m = too_deep ? planned_depth_m_ : settings.max_depth_m;
     aligner_.Enable(settings.prealign);
     fusing_ = settings.fusing;

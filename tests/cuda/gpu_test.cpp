@@ -20,7 +20,7 @@ using testing_support::DeskFrames;
 class Gpu : public testing::Test {
   protected:
     void SetUp() override {
-        Result<std::unique_ptr<Backend>> opened = OpenGpu({});
+        Result<std::unique_ptr<Backend>> opened = OpenGpu(0);
         if (!opened.ok()) GTEST_SKIP() << opened.message();
         device_ = std::move(opened.value());
     }

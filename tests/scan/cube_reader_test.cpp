@@ -1,6 +1,5 @@
 #include "scan/cube_reader.h"
 
-#include "scan/pager.h"
 #include "scan/small_scan.h"
 
 namespace tessera {
@@ -31,22 +30,20 @@ TEST(Cube, AllCubesTogetherAreTheMap) {
     ASSERT_TRUE(cubes.ok());
     ASSERT_GT(cubes.value().size(), 1u);
     BlockMap again(map->config());
-    Pager pager(std::move(reader.value()));
-    for (const auto& [key, blocks] : cubes.value()) pager.Ask(key);
+    BlockCopies cube;
     for (const auto& [key, blocks] : cubes.value()) {
-        const auto cube = pager.Take();
-        ASSERT_TRUE(cube->status.ok()) << cube->status.message();
-        ASSERT_EQ(cube->key, key);
-        ASSERT_EQ(static_cast<std::int32_t>(cube->blocks.size()), blocks);
-        for (std::size_t i = 0; i < cube->blocks.size(); ++i) {
-            const BlockId id = again.Allocate(cube->blocks.coords[i], cube->blocks.numbers[i]);
-            cube->blocks.Put(i, again, id);
-            const BlockId expected = map->Find(cube->blocks.coords[i]);
+        const Status status = reader.value()->Read(key, cube);
+        ASSERT_TRUE(status.ok()) << status.message();
+        ASSERT_EQ(static_cast<std::int32_t>(cube.size()), blocks);
+        for (std::size_t i = 0; i < cube.size(); ++i) {
+            ASSERT_EQ(CubeKey(CubeOf(cube.coords[i])), key);
+            const BlockId id = again.Allocate(cube.coords[i], cube.numbers[i]);
+            cube.Put(i, again, id);
+            const BlockId expected = map->Find(cube.coords[i]);
             ASSERT_EQ(again.number(id), map->number(expected));
             ASSERT_TRUE(SameBlock(again, id, *map, expected));
         }
     }
-    EXPECT_EQ(pager.under_way(), 0u);
     EXPECT_EQ(again.count(), map->count());
 }
 

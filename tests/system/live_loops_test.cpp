@@ -6,12 +6,12 @@
 
 #include "optimize/drifting_walk.h"
 #include "optimize/pose_graph.h"
+#include "scan/scan_content.h"
 #include "support/temp_folder.h"
 #include "system/frame_list.h"
 #include "system/live_engine.h"
 #include "system/map_version.h"
 #include "system/place_check.h"
-#include "system/scan_restore.h"
 
 namespace tessera {
 namespace {

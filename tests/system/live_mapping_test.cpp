@@ -106,6 +106,7 @@ TEST_F(LiveMappingTest, TrackingGetsAnAnswerToAFirstFrameThatIsNotFused) {
 TEST_F(LiveMappingTest, TheSecondFrameOfAPartIsTrackedInTheMapOfTheFirst) {
     CpuBackend device;
     LiveMapping mapping(config, source, &device, nullptr, links);
+    mapping.life().stage().KeepDeltas();
     ASSERT_TRUE(mapping.Start({}, {}, {}).ok());
     LiveTracking tracking({config, source.camera, nullptr, nullptr, std::nullopt}, {}, links,
                           mapping);
@@ -118,14 +119,13 @@ TEST_F(LiveMappingTest, TheSecondFrameOfAPartIsTrackedInTheMapOfTheFirst) {
     next();
     ASSERT_TRUE(outcome.report.first);
     push(1);
-    MapUpdate corrected, answer;
+    MapUpdate corrected, answer{std::make_unique<MapDelta>(), 0, nullptr};
     corrected.field =
         std::make_unique<BlockMap>(config.pipeline.map, config.pipeline.trackers.layers());
     ASSERT_TRUE(links.map_updates.TryPush(std::move(corrected)));
     while (!links.map_updates.empty()) std::this_thread::yield();
     answer.first = true;
-    answer.delta = std::make_unique<MapDelta>();
-    mapping.life().stage().CollectWhole(*answer.delta);
+    mapping.life().stage().CollectDelta(*answer.delta);
     ASSERT_TRUE(links.map_updates.TryPush(std::move(answer)));
     next();
     EXPECT_EQ(outcome.report.index, 1);

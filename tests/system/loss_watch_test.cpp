@@ -4,7 +4,7 @@
 #include "optimize/scan_parts.h"
 #include "system/engine_fixture.h"
 #include "system/frame_list.h"
-#include "system/scan_restore.h"
+#include "system/loop_journal.h"
 
 namespace tessera {
 namespace {
@@ -228,7 +228,7 @@ TEST_F(LostCameraRun, PartsAreTheSameWithAMemoryLimit) {
         return made;
     };
     const Made whole = run("whole.scan");
-    config.pipeline.paging.memory_limit_mb = 10;  // what one view needs
+    config.pipeline.memory_limit_mb = 10;  // what one view needs
     const Made paged = run("paged.scan");
     EXPECT_LT(4 * paged.most_blocks, 3 * whole.most_blocks);
     ASSERT_EQ(paged.path.size(), whole.path.size());

@@ -131,7 +131,7 @@ class Paging : public EngineTest {
     }
 
     void Start(bool live, double limit_mb, bool paced = false) {
-        config.pipeline.paging.memory_limit_mb = limit_mb;
+        config.pipeline.memory_limit_mb = limit_mb;
         EngineInput input = Input({});
         input.source = std::make_unique<HallSource>(paced ? &mapped : nullptr, aside_rad);
         std::vector<StampedPose> poses;

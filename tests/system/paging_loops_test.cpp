@@ -51,7 +51,7 @@ class PagingLoops : public testing::Test {
         if (!PoseGraphAvailable()) GTEST_SKIP() << "this build has no Ceres: install libceres-dev";
     }
     void Start(const std::vector<Frame>& frames, bool live, double limit_mb) {
-        config.pipeline.paging.memory_limit_mb = limit_mb;
+        config.pipeline.memory_limit_mb = limit_mb;
         std::remove(path.c_str());
         EngineInput input;
         input.source = std::make_unique<FrameList>(frames);

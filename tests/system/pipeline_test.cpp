@@ -66,7 +66,7 @@ TEST(Pipeline, TheLargestDepthIsNotRaisedWhereMemoryIsLimited) {
     for (const double limit_mb : {0.0, 100.0}) {
         PipelineConfig config = SmallConfig();
         config.frame.max_depth_m = 3;
-        config.paging.memory_limit_mb = limit_mb;
+        config.memory_limit_mb = limit_mb;
         TrackingStage tracking(config, SmallCamera());
         const BlockMap map(config.map);
         const auto seen = [&](double max_depth_m, bool told) {

@@ -3,7 +3,7 @@
 
 #include "mapping/analytic_fields.h"
 #include "support/temp_folder.h"
-#include "system/scan_restore.h"
+#include "system/loop_journal.h"
 #include "system/scan_stage.h"
 
 namespace tessera {
