@@ -3,6 +3,7 @@
 // and fused. Never modifies the map in use, but hands out a corrected one when it is ready.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -95,8 +96,10 @@ class LoopCloser {
     // At the end of a run: makes all remaining corrections, and refines the calibration if
     // configured. `note`: message for the user about the calibration. `in_use`: the map with all
     // frames and corrections so far, which is then moved as far as possible. If null, and with a
-    // pager or labels that move far, it is fused again.
-    std::optional<Correction> Finish(std::string& note, const BlockMap* in_use = nullptr);
+    // pager or labels that move far, it is fused again. `free_map`: if given and no `in_use` is, it
+    // is called before a map is made that will take its place for certain.
+    std::optional<Correction> Finish(std::string& note, const BlockMap* in_use = nullptr,
+                                     const std::function<void()>& free_map = {});
     // Outside a run: optimises with every overlap that can be found, and makes the map again from
     // all stored frames of the largest part.
     Result<Correction> MakeAgain();
@@ -130,9 +133,10 @@ class LoopCloser {
     // The map in use is about to be replaced, or just was: it may hold places twice.
     bool outdated() const { return corrector_.busy() || swapped_; }
     std::optional<Correction> StepCorrection(int frames);
-    std::optional<Correction> MakeAll();
-    std::optional<Correction> FuseAll();
-    std::optional<Correction> CatchUp(const BlockMap* in_use);
+    std::optional<Correction> MakeAll(const std::function<void()>& free_map = {});
+    std::optional<Correction> FuseAll(const std::function<void()>& free_map = {});
+    std::optional<Correction> CatchUp(const BlockMap* in_use,
+                                      const std::function<void()>& free_map = {});
     bool Calibrate(std::string& note);
     bool LeavePartsOut(std::string& note);
 

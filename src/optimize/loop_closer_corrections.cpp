@@ -67,7 +67,8 @@ bool LoopCloser::MoveAlike(int a, int b) const {
 }
 
 // All of what was begun. Nothing if it cannot be made.
-std::optional<LoopCloser::Correction> LoopCloser::MakeAll() {
+std::optional<LoopCloser::Correction> LoopCloser::MakeAll(const std::function<void()>& free_map) {
+    if (free_map && corrector_.FusesAll()) free_map();
     while (corrector_.busy())
         if (std::optional<Correction> made = StepCorrection(std::numeric_limits<int>::max()))
             return made;
@@ -75,8 +76,8 @@ std::optional<LoopCloser::Correction> LoopCloser::MakeAll() {
 }
 
 // A map of all stored frames, whatever the one in use is like.
-std::optional<LoopCloser::Correction> LoopCloser::FuseAll() {
-    return corrector_.Begin(kAnyDifference_m) ? MakeAll() : std::nullopt;
+std::optional<LoopCloser::Correction> LoopCloser::FuseAll(const std::function<void()>& free_map) {
+    return corrector_.Begin(kAnyDifference_m) ? MakeAll(free_map) : std::nullopt;
 }
 
 // Returns true if the scan shows another calibration, with which the map is to be made again.
@@ -99,19 +100,19 @@ bool LoopCloser::LeavePartsOut(std::string& note) {
     return true;
 }
 
-std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
-                                                         const BlockMap* in_use) {
+std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note, const BlockMap* in_use,
+                                                         const std::function<void()>& free_map) {
     store_.StoreLatest();
     if (seeking_ && graph_.corrected())
         static_cast<void>(graph_.OptimiseAgain());  // else as it was
     const bool calibrated = Calibrate(note);
     const bool parts_left_out = LeavePartsOut(note);
     if (!graph_.corrected()) return std::nullopt;
-    if (!calibrated && !parts_left_out) return CatchUp(in_use);
+    if (!calibrated && !parts_left_out) return CatchUp(in_use, free_map);
     corrector_.Discard();
     // Parts can be taken out of the map in use. Another calibration changes all of it.
     if (calibrated || !in_use || corrector_.labels() || !corrector_.MayMove(*in_use))
-        return FuseAll();
+        return FuseAll(free_map);
     corrector_.BeginParts(*in_use);
     std::optional<Correction> last = MakeAll();
     Append(CatchUp(last->map.get()), last);
@@ -120,7 +121,8 @@ std::optional<LoopCloser::Correction> LoopCloser::Finish(std::string& note,
 
 // The map of the graph as it is now. The map in use is moved, if it is given and can be; else what
 // was begun is made, or all is fused again. Nothing if the map in use is right.
-std::optional<LoopCloser::Correction> LoopCloser::CatchUp(const BlockMap* in_use) {
+std::optional<LoopCloser::Correction> LoopCloser::CatchUp(const BlockMap* in_use,
+                                                          const std::function<void()>& free_map) {
     const double tolerance_m = settings_.map.voxel_size_m / 2;
     if (in_use && (graph_.PartsMove() || !corrector_.MayMove(*in_use))) in_use = nullptr;
     // To move the map in use takes less time than what is left.
@@ -131,7 +133,7 @@ std::optional<LoopCloser::Correction> LoopCloser::CatchUp(const BlockMap* in_use
     std::optional<Correction> last;
     while (corrector_.Begin(corrector_.doubtful() ? kAnyDifference_m : tolerance_m,
                             std::exchange(in_use, nullptr)))
-        Append(MakeAll(), last);
+        Append(MakeAll(free_map), last);
     return last;
 }
 

@@ -42,6 +42,8 @@ class MapCorrector {
     bool busy() const { return made_ != nullptr; }
     // A copy of the map in use is being moved.
     bool moves_copy() const { return made_ && made_->has_copy(); }
+    // All frames are fused again, and nothing can stop that.
+    bool FusesAll() const { return made_ && made_->fuses_all(); }
     // Of the map that is being made, by keyframe. Only while busy.
     const std::vector<Eigen::Isometry3d>& T_new_keyframe() const {
         return made_->T_world_keyframe();

@@ -48,6 +48,8 @@ class MapRebuild {
     // Keeps the warp's map, a copy of the one in use, which goes on.
     void Keep(std::unique_ptr<BlockMap> copy) { copy_ = std::move(copy); }
     bool has_copy() const { return copy_ != nullptr; }
+    // From no other map, and without a pager, which may fail.
+    bool fuses_all() const { return !warp_ && !again_ && !whole_ && !pager_; }
     // Blocks of the map that were moved although keyframes disagree about them.
     std::vector<BlockCoord> TakeDoubtful() { return std::move(doubtful_); }
     std::unique_ptr<BlockMap> TakeMap() { return std::move(map_); }

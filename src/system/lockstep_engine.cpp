@@ -206,7 +206,8 @@ void LockstepEngine::Finish() {
     recorder_.Stop();
     if (loops_ && !mapping_.only_localise()) {
         notices_.Tell(
-            loops_->Finish([this](auto correction) { mapping_.PutMap(std::move(correction)); }));
+            loops_->Finish([this](auto correction) { mapping_.PutMap(std::move(correction)); },
+                           [this] { mapping_.stage().FreeMap(); }));
         if (mapping_.saving()) mapping_.AddLoops(loops_->TakeChanges());
     }
     mapping_.Finish();

@@ -100,10 +100,10 @@ double LoopStage::AfterFusion(const Frame& frame, TrackedFrame& tracked,
     return lost_ms_ + watch.LapMs();
 }
 
-std::string LoopStage::Finish(const PutMap& put) {
+std::string LoopStage::Finish(const PutMap& put, const std::function<void()>& free_map) {
     std::string note;
     if (std::exchange(finished_, true)) return note;
-    if (auto correction = closer_.Finish(note)) put(std::move(*correction));
+    if (auto correction = closer_.Finish(note, nullptr, free_map)) put(std::move(*correction));
     AddNote(closer_.TakeError(), note);
     return note;
 }

@@ -47,8 +47,8 @@ class LoopStage {
                        const std::optional<LabelReport>& labels, TrackingStage& tracking,
                        const PutMap& put);
     // Call once, after the last frame: completes all pending corrections. Returns a message for the
-    // user, usually empty.
-    std::string Finish(const PutMap& put);
+    // user, usually empty. `free_map`: see LoopCloser.
+    std::string Finish(const PutMap& put, const std::function<void()>& free_map);
 
     void EnableLabels(LoopCloser::Labels labels) { closer_.EnableLabels(std::move(labels)); }
     std::vector<StampedPose> Path() const { return closer_.Path(); }

@@ -105,10 +105,13 @@ class MappingStage {
     // there from this one. Whoever follows the map by deltas first needs a copy of the new field.
     void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 
-    // The same for one that was moved, by T_new_old at the latest frames, from a copy of this map
-    // at that revision. What has changed since follows: a part of it at once, the latest new blocks
-    // first, the rest with calls of Follow while `following`. What is fused meanwhile stays; its
-    // unknown voxels are filled in. Labels, if this map has got any since, are dropped.
+    // Call before Replace where there is no other way, so that there are not two maps.
+    void FreeMap() { Place(std::make_unique<BlockMap>(config_.map)); }
+
+    // Replaces the map by one that was moved, by T_new_old at the latest frames, from a copy of
+    // this map at that revision. What has changed since follows: a part of it at once, the latest
+    // new blocks first, the rest with calls of Follow while `following`. What is fused meanwhile
+    // stays; its unknown voxels are filled in. Labels, if this map has got any since, are dropped.
     void ReplaceMoved(std::unique_ptr<BlockMap> map, const Eigen::Isometry3d& T_new_old,
                       std::uint32_t moved_at);
     bool following() const { return following_.has_value(); }

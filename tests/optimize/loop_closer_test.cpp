@@ -92,7 +92,10 @@ TEST(LoopCloser, CorrectsWhatTheMapCanShow) {
     for (Walker* walker : {&in_fine, &in_coarse}) {
         WalkWithDrift(frames, *walker, 0.2);
         std::string note;
-        walker->Take(walker->closer.Finish(note));
+        int freed = 0;
+        auto correction = walker->closer.Finish(note, nullptr, [&freed] { ++freed; });
+        EXPECT_EQ(freed, correction ? 1 : 0);
+        walker->Take(std::move(correction));
         std::cout << 1000 * EndError_m(frames, walker->closer.Path()) << " mm, "
                   << walker->corrections << " corrections\n"
                   << walker->all_news;

@@ -152,8 +152,11 @@ TEST(LoopCloser, AMapMovedAtTheEndIsLikeOneFusedAgain) {
         WalkWithDrift(frames, walker, 0.3);
         ASSERT_EQ(walker.corrections, 0);
         std::string note;
-        auto correction = walker.closer.Finish(note, moved ? walker.map.get() : nullptr);
+        int freed = 0;
+        auto correction =
+            walker.closer.Finish(note, moved ? walker.map.get() : nullptr, [&freed] { ++freed; });
         ASSERT_TRUE(correction.has_value());
+        EXPECT_EQ(freed, moved ? 0 : 1);
         maps[moved] = std::move(correction->map);
         before = std::move(walker.map);
     }

@@ -130,18 +130,18 @@ TEST_P(SaveAfterEnd, TheWindowGetsAllOfTheFinalMesh) {
     config.live.queue_frames = 30;
     config.meshing.min_component_triangles = 0;
     Make(GetParam(), {.count = 12});
-    std::map<BlockId, std::size_t> triangles;
+    std::map<BlockId, std::size_t> shown;
     bool last = false, whole = false;
     const auto take = [&] {
         for (MeshUpdate update; link.meshes.TryPop(update);) {
             EXPECT_FALSE(last) << "there is more";
             last = update.last, whole = update.whole;
-            if (update.clear) triangles.clear();
+            if (update.clear) shown.clear();
             for (const GeometryBlock& block : update.blocks)
-                triangles[block.id] = block.geometry.indices.size() / 3;
+                shown[block.id] = block.geometry.indices.size() / 3;
         }
         std::size_t all = 0;
-        for (const auto& [id, count] : triangles) all += count;
+        for (const auto& [id, count] : shown) all += count;
         return all;
     };
     while (Next()) take();
