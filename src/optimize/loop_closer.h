@@ -96,8 +96,8 @@ class LoopCloser {
     // At the end of a run: makes all remaining corrections, and refines the calibration if
     // configured. `note`: message for the user about the calibration. `in_use`: the map with all
     // frames and corrections so far, which is then moved as far as possible. If null, and with a
-    // pager or labels that move far, it is fused again. `free_map`: if given and no `in_use` is, it
-    // is called before a map is made that will take its place for certain.
+    // pager or labels that move far, it is fused again. `free_map`: if given, it is called before
+    // all frames are fused again if nothing can stop that: the map in use is then needed no more.
     std::optional<Correction> Finish(std::string& note, const BlockMap* in_use = nullptr,
                                      const std::function<void()>& free_map = {});
     // Outside a run: optimises with every overlap that can be found, and makes the map again from

@@ -104,6 +104,7 @@ class Repair {
             std::memcpy(data.data(), &next, sizeof(next));
             ++next;
             file_->Put(ScanTable::kBlocks, key, data);
+            if (!file_->error().ok()) return;
         }
         if (unlabelled) report_.lost.push_back("the objects' labels");
         report_.blocks = next - 1;
@@ -158,6 +159,7 @@ class Repair {
             const Result<Bytes> bytes = record.Encode();
             if (!bytes.ok()) return file_->Abandon(bytes.status());
             file_->Put(ScanTable::kFrames, new_key_[key], bytes.value());
+            if (!file_->error().ok()) return;
             ++report_.frames;
         }
     }

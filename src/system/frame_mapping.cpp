@@ -30,11 +30,17 @@ Result<std::optional<LoopCloser::Memory>> FrameMapping::StartScan(ScanPlan plan)
         scan_.emplace(std::move(plan), config_.scan, wait_, config_.loops.enabled, notices_);
     std::optional<LoopCloser::Memory> learnt;
     if (resumed) {
-        if (Status status = Resume(*resumed); !status.ok()) return status;
+        if (Status status = Resume(*resumed); !status.ok()) return RefuseScan(std::move(status));
         learnt = TakeLoopMemory(*resumed);
     }
-    if (Status status = StartPaging(); !status.ok()) return status;
+    if (Status status = StartPaging(); !status.ok()) return RefuseScan(std::move(status));
     return learnt;
+}
+
+// Nothing is written to it, at the end of the run either.
+Status FrameMapping::RefuseScan(Status why) {
+    scan_.reset();
+    return why;
 }
 
 Status FrameMapping::Resume(ScanContent& scan) {

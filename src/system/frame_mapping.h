@@ -99,6 +99,7 @@ class FrameMapping {
 
   private:
     Status Resume(ScanContent& scan);
+    Status RefuseScan(Status why);
     Status StartPaging();
     TriangleMesh MakeFinalMesh(Status& status, bool keep_map);
     struct SavedMesh {

@@ -105,8 +105,11 @@ class MappingStage {
     // there from this one. Whoever follows the map by deltas first needs a copy of the new field.
     void Replace(std::unique_ptr<BlockMap> map, std::unique_ptr<LabelMapper> labels);
 
-    // Call before Replace where there is no other way, so that there are not two maps.
-    void FreeMap() { Place(std::make_unique<BlockMap>(config_.map)); }
+    // Only if Replace follows for certain: there are then never two maps.
+    void FreeMap() {
+        map_.reset();
+        Place(std::make_unique<BlockMap>(config_.map));
+    }
 
     // Replaces the map by one that was moved, by T_new_old at the latest frames, from a copy of
     // this map at that revision. What has changed since follows: a part of it at once, the latest

@@ -115,6 +115,30 @@ TEST_F(FramesOfScan, AFrameWithoutColourIsLeftOutAndCounted) {
     EXPECT_EQ(StampText(raw), "0.000 0.667 1.333 2.667 ");
 }
 
+// The objects that are saved have the names of the first run's classes.
+TEST_F(Run, AScanThatIsRefusedForItsClassesStaysAsItIs) {
+    request.scan_file = folder / "a.scan";
+    request.labels = "synthetic";
+    config.labels.classes = "keyboard=#010203 cup=#040506";
+    config.labels.min_observations = 2;
+    const auto run = Execute();
+    ASSERT_TRUE(run.ok()) << run.message();
+    const auto labels = [&] {
+        const auto scan = ReadScan(request.scan_file, {});
+        EXPECT_TRUE(scan.ok()) << scan.message();
+        return scan.ok() ? scan.value().labels : Bytes();
+    };
+    const Bytes before = labels();
+    ASSERT_FALSE(before.empty());
+    request.resume = true;
+    config.labels.classes = "book=#010203";
+    const auto again = Execute();
+    ASSERT_FALSE(again.ok());
+    EXPECT_NE(again.message().find("its labels have other classes"), std::string::npos)
+        << again.message();
+    EXPECT_EQ(labels(), before);
+}
+
 // The names that "all" stood for are those of the detector, renamed once.
 TEST_F(Run, AScanLabelledWithAllClassesIsExported) {
     request.scan_file = folder / "a.scan";
