@@ -11,6 +11,8 @@ namespace {
 // most of them by less than 1 % (docs/calibration.md). Errors that affect the whole recording do
 // not show in its scatter.
 constexpr double kDeviations = 6;
+// The centre's standard deviation is three times too small there, the focal length's twice.
+constexpr double kCentreDeviations = 12;
 // Shares of the focal length and of the image width.
 constexpr double kFocalFloor = 0.0125, kCentreFloor = 0.006;
 // No calibration is this far off, as a share of the focal length. An estimate that is comes from a
@@ -23,8 +25,8 @@ constexpr double kVignettingFloor = 0.03;    // twice what intensities err by as
 constexpr double kLeastVignetting = -0.3, kMostVignetting = 0.7;
 constexpr double kUsefulFocal = 0.02;  // largest sigma, as a share of the focal length
 
-bool Beyond(double difference, double sigma, double floor) {
-    return sigma > 0 && std::abs(difference) > std::max(kDeviations * sigma, floor);
+bool Beyond(double difference, double sigma, double floor, double deviations = kDeviations) {
+    return sigma > 0 && std::abs(difference) > std::max(deviations * sigma, floor);
 }
 
 }  // namespace
@@ -52,8 +54,8 @@ bool CameraEstimate::vignetting_known(double share) const {
 bool CameraEstimate::centre_shown() const {
     const double floor_px = kCentreFloor * given.width;
     return misfit_found < misfit_given &&
-           (Beyond(found.cx - given.cx, centre_x_sigma_px, floor_px) ||
-            Beyond(found.cy - given.cy, centre_y_sigma_px, floor_px));
+           (Beyond(found.cx - given.cx, centre_x_sigma_px, floor_px, kCentreDeviations) ||
+            Beyond(found.cy - given.cy, centre_y_sigma_px, floor_px, kCentreDeviations));
 }
 
 bool CameraEstimate::shutter_shown(double given_readout_s) const {

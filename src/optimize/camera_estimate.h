@@ -30,6 +30,8 @@ struct CameraEstimate {
     bool shown() const;
     // False: the focal length is that far off.
     bool plausible() const;
+    // Where no camera was given, none is too far off.
+    bool believed(bool camera_known) const { return plausible() || !camera_known; }
     // True if the corners are clearly darker or brighter.
     bool vignetting_shown() const;
     // True if none of this size could go unseen.

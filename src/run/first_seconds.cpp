@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "io/frame_reader.h"
 #include "optimize/camera_estimator.h"
@@ -63,10 +65,25 @@ std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelectio
                           stride};
 }
 
+void TakeOff(double vignetting, ColourImage& colour) {
+    if (vignetting == 0) return;
+    const double middle_x = 0.5 * (colour.width() - 1), middle_y = 0.5 * (colour.height() - 1);
+    const double corner2 = middle_x * middle_x + middle_y * middle_y;
+    for (int y = 0; y < colour.height(); ++y)
+        for (int x = 0; x < colour.width(); ++x) {
+            const double dx = x - middle_x, dy = y - middle_y;
+            const double left = 1 - vignetting * (dx * dx + dy * dy) / corner2;
+            Rgb8& pixel = colour(x, y);
+            for (std::uint8_t* channel : {&pixel.r, &pixel.g, &pixel.b})
+                *channel =
+                    static_cast<std::uint8_t>(std::min<long>(std::lround(*channel / left), 255));
+        }
+}
+
 }  // namespace
 
 FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selection,
-                                bool one_camera, double colour_readout_s) {
+                                bool one_camera, double colour_readout_s, double vignetting) {
     const std::optional<FrameSelection> part = PartToSee(source, selection);
     if (!part) return {};
     const SourceInfo info = source.info();
@@ -85,6 +102,7 @@ FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selec
         if (frame.stamp_s > *first_s + kWindow_s) break;
         if (last_s && frame.stamp_s < *last_s + kShortest_s) continue;
         last_s = frame.stamp_s;
+        TakeOff(vignetting, frame.colour);
         const EdgeView edges = MakeEdgeView(frame);
         if (views++ % 2 == 0) registration.Add(edges);
         delay.Add(frame, edges);
@@ -94,7 +112,7 @@ FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selec
     seen.colour = registration.Estimate();
     if (estimator.frames() >= kLeastViews) seen.camera = estimator.Estimate();
     // A fit that went astray has a wrong read-out time, too.
-    const bool believed = seen.camera && (seen.camera->plausible() || !info.camera_known);
+    const bool believed = seen.camera && seen.camera->believed(info.camera_known);
     std::optional<double> readout_s;
     if (believed)
         readout_s = seen.camera->certain_readout_s(colour_readout_s);
@@ -103,6 +121,34 @@ FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selec
     seen.delay = delay.Estimate(readout_s);
     if (seen.colour) seen.colour->known = info.registration_known;
     return seen;
+}
+
+void LookWithoutVignetting(FrameSource& source, const FrameSelection& selection, double share,
+                           double colour_readout_s, FirstSeconds& seen) {
+    constexpr int kMostLooks = 3;
+    constexpr double kStrong = 0.25;     // as of a wide lens
+    constexpr double kLeastStep = 0.03;  // to be worth another look
+    const auto known = [&](const CameraEstimate& estimate) {
+        return estimate.believed(source.info().camera_known) && estimate.vignetting_known(share);
+    };
+    if (!seen.camera || known(*seen.camera)) return;
+    double removed = kStrong;
+    for (int look = 0; look < kMostLooks && source.Seek(0); ++look) {
+        FirstSeconds found = LookAtFirstSeconds(source, selection, true, colour_readout_s, removed);
+        if (!found.camera) return;
+        const double rest = found.camera->vignetting;
+        removed = found.camera->vignetting += removed;
+        if (!found.camera->vignetting_shown()) return;
+        if (std::abs(rest) >= kLeastStep) continue;
+        if (!known(*found.camera) || !source.Seek(0)) return;
+        // What hides itself would show the same whatever is taken off.
+        const FirstSeconds other =
+            LookAtFirstSeconds(source, selection, true, colour_readout_s, removed + share);
+        const double brighter = share / (1 - removed - share);  // in the corners
+        if (other.camera && std::abs(other.camera->vignetting + brighter) < brighter / 2)
+            seen = std::move(found);
+        return;
+    }
 }
 
 std::optional<DepthDistortionEstimate> LookAtDepth(FrameSource& source,

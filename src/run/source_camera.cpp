@@ -123,49 +123,16 @@ void CorrectDelay(const FirstSeconds& seen, RunConfig& config, CheckedSource& ch
                     1000 * std::abs(checked.found.colour_delay->certain_s())));
 }
 
-bool Believed(const CameraEstimate& estimate, const SourceInfo& given) {
-    return estimate.plausible() || !given.camera_known;
-}
-
-// Where there is hardly any texture, strong vignetting hides itself: views are aligned by shading,
-// which moves with the camera, and then show none. So if it could be strong and unseen, looks again
-// at images without what it might be. `seen` becomes what these show if they show for certain that
-// it is there.
-Status LookWithoutVignetting(const RunRequest& request, const SourceInfo& given, RunConfig config,
-                             KeptSource& kept, FirstSeconds& seen) {
-    constexpr int kMostLooks = 3;
-    constexpr double kStrong = 0.25;     // as of a wide lens
-    constexpr double kLeastStep = 0.03;  // to be worth another look
-    const auto known = [&](const CameraEstimate& estimate) {
-        return Believed(estimate, given) && estimate.vignetting_known(kLookAgain);
-    };
-    if (IsOni(request.source) || !seen.camera || known(*seen.camera)) return Status::Ok();
-    double removed = 0, step = kStrong;
-    for (int look = 0; look < kMostLooks && std::abs(step) >= kLeastStep; ++look) {
-        config.source.vignetting += step;
-        removed += step;
-        const Result<FrameSource*> evened = kept.With(config);
-        if (!evened.ok()) return evened.status();
-        FirstSeconds found =
-            LookAtFirstSeconds(*evened.value(), request.selection, given.one_camera,
-                               config.pipeline.shutter.colour_readout_s);
-        if (!found.camera) break;
-        step = found.camera->vignetting;
-        found.camera->vignetting += removed;
-        if (!found.camera->vignetting_shown()) break;
-        if (!known(*found.camera)) continue;
-        seen = std::move(found);
-        break;
-    }
-    return Status::Ok();
-}
-
 // Corrects the registration and the brightness of colour in `config` if the images show errors, and
 // looks again if they are large.
 Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConfig& config,
                      KeptSource& kept, FirstSeconds& seen, CheckedSource& checked) {
-    if (Status status = LookWithoutVignetting(request, given, config, kept, seen); !status.ok())
-        return status;
+    if (!IsOni(request.source)) {
+        const Result<FrameSource*> source = kept.With(config);
+        if (!source.ok()) return source.status();
+        LookWithoutVignetting(*source.value(), request.selection, kLookAgain,
+                              config.pipeline.shutter.colour_readout_s, seen);
+    }
     checked.found.colour_shift = seen.colour;
     if (seen.camera)
         checked.found.vignetting =
@@ -177,7 +144,8 @@ Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConf
                                          checked.found.colour_shift->y_px};
         checked.messages.push_back(ColourShiftText(*checked.found.colour_shift) + ": corrected");
     }
-    if (seen.camera && Believed(*seen.camera, given) && seen.camera->vignetting_shown()) {
+    if (seen.camera && seen.camera->believed(given.camera_known) &&
+        seen.camera->vignetting_shown()) {
         VignettingReport& v = *checked.found.vignetting;
         v.used = true;
         config.source.vignetting = v.share;

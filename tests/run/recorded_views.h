@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/camera.h"
+#include "core/frame.h"
 #include "io/image_io.h"
 #include "support/temp_folder.h"
 
