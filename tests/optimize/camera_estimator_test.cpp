@@ -163,6 +163,20 @@ TEST(CameraEstimate, IsBelievedBeyondItsDeviationsAndItsFloorOnly) {
               "camera.yaml says fx 270.0; this recording says 283.5 +- 2.0");
 }
 
+TEST(CameraEstimate, ACentreIsBelievedBeyondTwelveDeviations) {
+    CameraEstimate estimate;
+    estimate.given = estimate.found = kCamera;
+    estimate.misfit_given = 2;
+    estimate.misfit_found = 1;
+    for (const double side : {-1.0, 1.0}) {
+        estimate.found.cx = kCamera.cx + 8 * side;
+        for (const auto& [sigma_px, shown] : {std::pair(0.7, false), {0.6, true}}) {
+            estimate.centre_x_sigma_px = sigma_px;
+            EXPECT_EQ(estimate.centre_shown(), shown) << side << ' ' << sigma_px;
+        }
+    }
+}
+
 TEST(CameraEstimate, ItsReadOutIsCertainWhereItShowsOrIsClearlySmall) {
     CameraEstimate estimate;
     EXPECT_FALSE(estimate.certain_readout_s(0));  // no deviation: nothing was estimated
