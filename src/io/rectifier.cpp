@@ -24,23 +24,6 @@ std::vector<std::int32_t> NearestPixels(const cv::Mat& x, const cv::Mat& y) {
     return source;
 }
 
-// What each channel of each pixel is multiplied by, in 256ths.
-std::vector<std::uint16_t> Brightening(const ImageSize& size, double vignetting) {
-    std::vector<std::uint16_t> factors;
-    if (vignetting == 0) return factors;
-    factors.reserve(3 * static_cast<std::size_t>(size.width) *
-                    static_cast<std::size_t>(size.height));
-    const double middle_x = 0.5 * (size.width - 1), middle_y = 0.5 * (size.height - 1);
-    const double corner2 = middle_x * middle_x + middle_y * middle_y;
-    for (int y = 0; y < size.height; ++y)
-        for (int x = 0; x < size.width; ++x) {
-            const double dx = x - middle_x, dy = y - middle_y;
-            const double left = 1 - vignetting * (dx * dx + dy * dy) / corner2;
-            factors.insert(factors.end(), 3, static_cast<std::uint16_t>(std::lround(256 / left)));
-        }
-    return factors;
-}
-
 }  // namespace
 
 struct Rectifier::ColourMaps {
@@ -56,7 +39,8 @@ Rectifier::Rectifier(const CameraCalibration& calibration, const Options& option
         corrects_lens_ = !colour.distortion.IsZero();
         registration_.emplace(colour, calibration.pinhole);
     }
-    brighter_ = Brightening(colour_size(), calibration.vignetting);
+    const ImageSize raw = colour_size();
+    brightening_.emplace(raw.width, raw.height, calibration.vignetting);
     const LensDistortion& d = calibration.distortion;
     if (d.IsZero() || !options.correct_distortion) return;
     corrects_lens_ = true;
@@ -116,19 +100,9 @@ void Rectifier::Depth(const Image<std::uint16_t>& raw, DepthImage& depth_m) cons
         to[i] = source[i] < 0 ? 0.0f : metres(from[source[i]]);
 }
 
-void Rectifier::EvenOut(ColourImage& raw_colour) const {
-    if (brighter_.empty() || raw_colour.empty()) return;
-    TESSERA_CHECK(3 * raw_colour.size() == brighter_.size(), "{} x {}", raw_colour.width(),
-                  raw_colour.height());
-    std::uint8_t* channel = &raw_colour.data()->r;
-    for (std::size_t i = 0; i < brighter_.size(); ++i)
-        channel[i] = static_cast<std::uint8_t>(
-            std::min<std::uint32_t>((channel[i] * std::uint32_t{brighter_[i]} + 128) >> 8, 255));
-}
-
 void Rectifier::Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame) {
     Depth(raw_depth, frame.depth_m);
-    EvenOut(raw_colour);
+    brightening_->Apply(raw_colour);
     if (registration_ && raw_colour.size() > 0)
         registration_->Register(raw_colour, frame.depth_m, frame.colour);
     else if (active() && raw_colour.size() > 0)

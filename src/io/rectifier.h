@@ -10,6 +10,7 @@
 #include "core/camera.h"
 #include "core/frame.h"
 #include "core/image.h"
+#include "io/brightening.h"
 #include "io/colour_registration.h"
 
 namespace tessera {
@@ -46,8 +47,6 @@ class Rectifier {
     void Fill(const Image<std::uint16_t>& raw_depth, ColourImage& raw_colour, Frame& frame);
 
   private:
-    void EvenOut(ColourImage& raw_colour) const;
-
     CameraCalibration calibration_;
     std::uint16_t invalid_depth_;
     // Index of the raw pixel for each pixel, -1 = outside. Empty if pixels do not move.
@@ -56,8 +55,7 @@ class Rectifier {
     std::unique_ptr<ColourMaps> colour_maps_;
     std::optional<ColourRegistration> registration_;
     bool corrects_lens_ = false;
-    // Per channel of each raw colour pixel, in 256ths. Empty without vignetting.
-    std::vector<std::uint16_t> brighter_;
+    std::optional<Brightening> brightening_;  // of raw colour; set by the constructor
 };
 
 }  // namespace tessera

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
+#include "io/brightening.h"
 #include "io/frame_reader.h"
 #include "optimize/camera_estimator.h"
 
@@ -65,21 +65,6 @@ std::optional<FrameSelection> PartToSee(FrameSource& source, const FrameSelectio
                           stride};
 }
 
-void TakeOff(double vignetting, ColourImage& colour) {
-    if (vignetting == 0) return;
-    const double middle_x = 0.5 * (colour.width() - 1), middle_y = 0.5 * (colour.height() - 1);
-    const double corner2 = middle_x * middle_x + middle_y * middle_y;
-    for (int y = 0; y < colour.height(); ++y)
-        for (int x = 0; x < colour.width(); ++x) {
-            const double dx = x - middle_x, dy = y - middle_y;
-            const double left = 1 - vignetting * (dx * dx + dy * dy) / corner2;
-            Rgb8& pixel = colour(x, y);
-            for (std::uint8_t* channel : {&pixel.r, &pixel.g, &pixel.b})
-                *channel =
-                    static_cast<std::uint8_t>(std::min<long>(std::lround(*channel / left), 255));
-        }
-}
-
 }  // namespace
 
 FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selection,
@@ -87,6 +72,7 @@ FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selec
     const std::optional<FrameSelection> part = PartToSee(source, selection);
     if (!part) return {};
     const SourceInfo info = source.info();
+    const Brightening brightening(info.camera.width, info.camera.height, vignetting);
     CameraEstimator estimator(info.camera);
     ColourShiftEstimator registration;
     ColourDelayEstimator delay(info.camera);
@@ -102,7 +88,7 @@ FirstSeconds LookAtFirstSeconds(FrameSource& source, const FrameSelection& selec
         if (frame.stamp_s > *first_s + kWindow_s) break;
         if (last_s && frame.stamp_s < *last_s + kShortest_s) continue;
         last_s = frame.stamp_s;
-        TakeOff(vignetting, frame.colour);
+        brightening.Apply(frame.colour);
         const EdgeView edges = MakeEdgeView(frame);
         if (views++ % 2 == 0) registration.Add(edges);
         delay.Add(frame, edges);
@@ -137,7 +123,8 @@ void LookWithoutVignetting(FrameSource& source, const FrameSelection& selection,
         FirstSeconds found = LookAtFirstSeconds(source, selection, true, colour_readout_s, removed);
         if (!found.camera) return;
         const double rest = found.camera->vignetting;
-        removed = found.camera->vignetting += removed;
+        removed += rest;
+        found.camera->vignetting = removed;
         if (!found.camera->vignetting_shown()) return;
         if (std::abs(rest) >= kLeastStep) continue;
         if (!known(*found.camera) || !source.Seek(0)) return;

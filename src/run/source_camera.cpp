@@ -127,12 +127,6 @@ void CorrectDelay(const FirstSeconds& seen, RunConfig& config, CheckedSource& ch
 // looks again if they are large.
 Status CorrectColour(const RunRequest& request, const SourceInfo& given, RunConfig& config,
                      KeptSource& kept, FirstSeconds& seen, CheckedSource& checked) {
-    if (!IsOni(request.source)) {
-        const Result<FrameSource*> source = kept.With(config);
-        if (!source.ok()) return source.status();
-        LookWithoutVignetting(*source.value(), request.selection, kLookAgain,
-                              config.pipeline.shutter.colour_readout_s, seen);
-    }
     checked.found.colour_shift = seen.colour;
     if (seen.camera)
         checked.found.vignetting =
@@ -181,6 +175,9 @@ Result<CheckedSource> OpenCheckedSource(const RunRequest& request, const RunConf
     RunConfig corrected = config;
     FirstSeconds seen = LookAtFirstSeconds(*opened.value(), request.selection, given.one_camera,
                                            config.pipeline.shutter.colour_readout_s);
+    if (!IsOni(request.source))
+        LookWithoutVignetting(*opened.value(), request.selection, kLookAgain,
+                              config.pipeline.shutter.colour_readout_s, seen);
     if (Status status = CorrectColour(request, given, corrected, kept, seen, checked); !status.ok())
         return status;
     if (!IsOni(request.source)) CorrectDelay(seen, corrected, checked);

@@ -17,6 +17,14 @@ inline double Paint(const Eigen::Vector3d& p) {
            0.12 * std::sin(15 * p.x() - 4 * p.y() + 11 * p.z());
 }
 
+// A pixel of an image of 320 x 240 whose corners are darker by the share `vignetting`.
+inline Rgb8 GreyAt(int u, int v, double brightness, double vignetting) {
+    const double dx = (u - 159.5) / 159.5, dy = (v - 119.5) / 119.5;
+    const double left = 1 - vignetting * (0.64 * dx * dx + 0.36 * dy * dy);
+    const auto grey = static_cast<std::uint8_t>(std::lround(255 * left * brightness));
+    return {grey, grey, grey};
+}
+
 // A frame on a slow, shaky path that starts near the origin and rotates about all axes. The corners
 // are darker by the share `vignetting`.
 inline Frame View(int number, double readout_s, double vignetting = 0) {
@@ -40,11 +48,7 @@ inline Frame View(int number, double readout_s, double vignetting = 0) {
             for (int k = 0; k < 3; ++k)
                 z = std::min(
                     z, ((ray(k) > 0 ? kHalfRoom(k) : -kHalfRoom(k)) - T.translation()(k)) / ray(k));
-            const double dx = (u - 159.5) / 159.5, dy = (v - 119.5) / 119.5;
-            const double left = 1 - vignetting * (0.64 * dx * dx + 0.36 * dy * dy);
-            const auto grey = static_cast<std::uint8_t>(
-                std::lround(255 * left * Paint(T.translation() + z * ray)));
-            frame.colour(u, v) = {grey, grey, grey};
+            frame.colour(u, v) = GreyAt(u, v, Paint(T.translation() + z * ray), vignetting);
             frame.depth_m(u, v) = static_cast<float>(z);
         }
     }

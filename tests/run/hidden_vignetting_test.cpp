@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "optimize/painted_room.h"
 #include "run/recorded_views.h"
 #include "run/source_camera.h"
 #include "support/temp_folder.h"
@@ -35,11 +36,8 @@ Frame WallAndFloor(int number, double vignetting) {
             const Eigen::Vector3d ray = T.linear() * kWallCamera.Unproject(u, v, 1);
             double z = (kWall_m - T.translation().z()) / ray.z();
             if (ray.y() > 0) z = std::min(z, (kFloor_m - T.translation().y()) / ray.y());
-            const double dx = (u - 159.5) / 159.5, dy = (v - 119.5) / 119.5;
-            const double left = 1 - vignetting * (0.64 * dx * dx + 0.36 * dy * dy);
-            const auto grey = static_cast<std::uint8_t>(
-                std::lround(255 * left * Brightness(T.translation() + z * ray)));
-            frame.colour(u, v) = {grey, grey, grey};
+            frame.colour(u, v) =
+                painted_room::GreyAt(u, v, Brightness(T.translation() + z * ray), vignetting);
             frame.depth_m(u, v) = static_cast<float>(z);
         }
     return frame;
